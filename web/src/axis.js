@@ -50,8 +50,9 @@ export function spoiling_start({ values }, unit) {
   return outside > jump * (high - low) && step > jump * (high - low) ? count : 0;
 }
 
-// Returns round values within an axis, `about` that many, for pictures that uPlot does not draw.
+// Returns round values within a range, `about` that many, where uPlot does not choose them.
 export function ticks(low, high, about) {
+  if (!(high > low)) return [low];
   const raw = (high - low) / Math.max(1, about), size = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].map((k) => k * size).find((k) => k >= raw * (1 - 1e-9));
   return ticks_by(low, high, step);

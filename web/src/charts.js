@@ -1,17 +1,20 @@
 // Charts of one quantity over another. uPlot draws the axes; the curves are drawn here, since their x
 // values need not increase.
 import uPlot from 'uplot';
-import { chart_picture } from './chart_picture.js';
-import { band_opacity, band_path, mark_path, point_path, sample_of } from './chart_shapes.js';
+import { band_opacity, draw_point, draw_sample, sample_of, trace_band, trace_mark, trace_point } from './chart_shapes.js';
 import { pressure_color } from './colors.js';
 import { Enlarged } from './enlarged.js';
+import { frame_of_plot, trace_line } from './frame.js';
 import { menu_button } from './menu.js';
-import { between } from './samples.js';
-import { save_entries } from './saving.js';
-import { number, tick_text } from './units.js';
 import { element } from './page.js';
+import { picture } from './picture.js';
+import { between, index_at } from './samples.js';
+import { save_entries } from './saving.js';
+import { page_theme } from './theme.js';
+import { number, tick_text } from './units.js';
 
-const usual_height = 270;
+const usual_height = 270, least_height = 190, most_height = 460;
+const around = { across: 84, along: 52 };  // axes and space next to the curves [px]
 const paper_width = 330;  // half of A4 and of Letter, between their margins [px]
 const near = 24;  // largest distance of the cursor to a point that it selects [px]
 
@@ -62,6 +65,7 @@ class Chart {
     this.others = element('div', { class: 'lines others' });
     this.box = element('div', { class: 'box' });
     this.set_height(usual_height);
+    this.dots = spec.curves.map(() => element('i', { class: 'now', hidden: '' }));
     this.root = element('article', { class: 'chart' },
       element('header', {}, this.title, this.lines, this.tools()), this.box,
       element('p', { class: 'hint' }, this.value, spec.note), this.others);
@@ -76,11 +80,12 @@ class Chart {
 
   resize() {
     this.plot.setSize({ width: this.box.clientWidth || 480, height: this.height });
+    this.place_dots();
   }
 
   tools() {
     const { enlarged, name } = this.charts;
-    const more = menu_button('⋯', 'Chart menu', () => save_entries(name, () => this.spec.title, () => chart_picture(this)));
+    const more = menu_button('⋯', 'Chart menu', () => save_entries(name, () => this.spec.title, () => this.picture()));
     return element('div', { class: 'panel-tools' }, enlarged.button_of(this), more);
   }
 
@@ -96,7 +101,7 @@ class Chart {
     const named = this.named();
     if (!named.length) return;
     this.buttons = named.map((c) => {
-      const kind = c.style in secondary || (c.style === 'points' && c.mark) ? 'drawn' : c.style === 'line' ? 'full' : c.style === 'points' ? 'dots' : 'rings';
+      const kind = c.style in secondary || c.dash || (c.style === 'points' && c.mark) ? 'drawn' : c.style === 'line' ? 'full' : c.style === 'points' ? 'dots' : 'rings';
       const pressed = String(this.shown.has(c.label));
       const mark = element('span', { class: 'mark' });
       if (kind === 'drawn') mark.innerHTML = sample_of(c);
@@ -116,10 +121,10 @@ class Chart {
   }
 
   // Returns the color of a curve; null if the curve has no color of its own.
-  color_of(curve, palette = this.charts.palette, dark = this.charts.dark) {
+  color_of(curve, theme = this.charts.theme) {
     if (curve.style === 'held out') return null;
-    if (curve.style in secondary) return palette[curve.color % palette.length];
-    return this.color(curve.color, palette, dark);
+    if (curve.style in secondary) return theme.lines[curve.color % theme.lines.length];
+    return this.color(curve.color, theme);
   }
 
   toggle(label, button) {
@@ -127,13 +132,14 @@ class Chart {
     if (on) this.shown.add(label);
     button.setAttribute('aria-pressed', String(on));
     this.plot?.redraw(false);
+    this.place_dots();
   }
 
-  // Returns a color of the palette, or of a continuous scale if there are more curves than palette colors.
-  color(place, palette = this.charts.palette, dark = this.charts.dark) {
-    if (this.most < palette.length) return palette[place];
+  // Returns a color of the lines, or of a continuous scale if there are more curves than colors of lines.
+  color(place, theme) {
+    if (this.most < theme.lines.length) return theme.lines[place];
     const share = place / this.most;
-    return pressure_color(dark ? 0.4 + 0.6 * share : 0.64 * share);
+    return pressure_color(theme.dark ? 0.4 + 0.6 * share : 0.64 * share);
   }
 
   // Converts all curves into the page's units.
@@ -145,6 +151,7 @@ class Chart {
       x: all(numbers_of(c.x, this.columns), x.unit),
       y: all(numbers_of(c.y, this.columns), y.unit),
       ...(c.y_high && { y_high: all(numbers_of(c.y_high), y.unit) }),
+      time: Array.isArray(c.x) ? null : this.columns[c.x].time,
     }));
     this.whole = { x: range_of(this.curves, 'x'), y: range_of(this.curves, 'y') };
     this.clamp_left_out_marks();
@@ -170,21 +177,35 @@ class Chart {
     return unit ? `${axis.label} [${unit}]` : axis.label;
   }
 
+  // Returns the ranges of the axes in a space of this size: with `equal` the view, extended so that both axes
+  // have the same scale.
+  ranges(width = (this.box.clientWidth || 480) - around.across, height = this.height - around.along) {
+    const { x, y } = this.view;
+    if (!this.spec.equal) return { x, y };
+    const pixel = Math.max((x[1] - x[0]) / width, (y[1] - y[0]) / height);
+    const about = ([low, high], half) => [(low + high) / 2 - half, (low + high) / 2 + half];
+    return { x: about(x, 0.5 * pixel * width), y: about(y, 0.5 * pixel * height) };
+  }
+
   build(width = this.box.clientWidth || 480) {
     this.plot?.destroy();
     const { theme } = this.charts, { x, y } = this.spec;
     this.convert();
-    const axis = { stroke: theme.ink, grid: { stroke: theme.grid, width: 1 }, ticks: { show: false },
+    if (this.spec.equal) {
+      const filled = ((width - around.across) * (this.whole.y[1] - this.whole.y[0])) / (this.whole.x[1] - this.whole.x[0]);
+      this.set_height(Math.round(Math.min(most_height, Math.max(least_height, filled + around.along))));
+    }
+    const axis = { stroke: theme.quiet, grid: { stroke: theme.grid, width: 1 }, ticks: { show: false },
                    font: theme.font, labelFont: theme.font, labelSize: 18, gap: 4,
                    values: (u, ticks) => ticks.map(tick_text) };
     this.title.textContent = this.spec.title;
-    this.buttons?.forEach((b) => b.button.style.setProperty('--line', b.curve.bold && this.has_several_colors(b.curve.label) ? theme.strong : this.color_of(b.curve) ?? theme.ink));
+    this.buttons?.forEach((b) => b.button.style.setProperty('--line', b.curve.bold && this.has_several_colors(b.curve.label) ? theme.ink : this.color_of(b.curve) ?? theme.quiet));
     this.plot = new uPlot({
       width, height: this.height,
       legend: { show: false },
       padding: [8, 14, 0, 0],
       cursor: { y: false, x: false, points: { show: false }, drag: { x: true, y: true, setScale: false, dist: 5 } },
-      scales: { x: { time: false, range: () => this.view.x }, y: { range: () => this.view.y } },
+      scales: { x: { time: false, range: () => this.ranges().x }, y: { range: () => this.ranges().y } },
       axes: [{ ...axis, label: this.axis_name(x), size: 26 }, { ...axis, label: this.axis_name(y), size: 52, space: 32 }],
       series: [{}, { show: true, stroke: 'transparent', points: { show: false } }],
       hooks: {
@@ -196,7 +217,8 @@ class Chart {
     this.plot.over.addEventListener('dblclick', () => this.set_view(this.whole));
     this.plot.over.addEventListener('mouseleave', () => this.point_out(null));
     this.mark = element('div', { class: 'found', hidden: '' });
-    this.plot.over.append(this.mark);
+    this.plot.over.append(...this.dots, this.mark);
+    this.place_dots();
   }
 
   zoom(u) {
@@ -210,86 +232,120 @@ class Chart {
   set_view(view) {
     this.view = view;
     this.plot.setData([view.x, view.y]);
+    this.place_dots();
   }
 
   // --- curves ---
 
   draw(u) {
-    const { ctx, bbox } = u, ratio = devicePixelRatio || 1;
+    const { ctx, bbox } = u;
     ctx.save();
     ctx.beginPath();
     ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
     ctx.clip();
-    const at = { x: (v) => u.valToPos(v, 'x', true), y: (v) => u.valToPos(v, 'y', true) };
-    this.draw_bands(ctx, at);
-    for (const kind of ['left out', 'line', 'other line', 'points', 'held out'])
-      for (const c of this.curves)
-        if (c.style === kind && this.shown.has(c.label)) this.draw_curve(ctx, c, at, ratio);
-    this.draw_now(ctx, at, ratio);
+    this.draw_curves(ctx, frame_of_plot(u), this.charts.theme, devicePixelRatio || 1);
     ctx.restore();
   }
 
+  draw_curves(ctx, frame, theme, ratio) {
+    ctx.lineJoin = 'round';
+    this.draw_bands(ctx, frame, theme);
+    for (const kind of ['left out', 'line', 'other line', 'points', 'held out'])
+      for (const c of this.curves) {
+        if (c.style !== kind || !this.shown.has(c.label)) continue;
+        ctx.strokeStyle = ctx.fillStyle = this.color_of(c, theme) ?? this.color(c.color, theme);
+        if (kind === 'line' || kind === 'other line') this.draw_line(ctx, c, frame, ratio);
+        else this.draw_points(ctx, c, frame, theme, ratio);
+      }
+  }
+
   // Fills the bands of one name as one area, so that overlaps are not darker.
-  draw_bands(ctx, at) {
-    for (const [label, path] of this.bands(at.x, at.y)) {
-      ctx.save();
-      ctx.fillStyle = this.color_of(this.curves.find((c) => c.label === label));
+  draw_bands(ctx, frame, theme) {
+    const bands = this.curves.filter((c) => c.style === 'band' && this.shown.has(c.label));
+    for (const label of new Set(bands.map((c) => c.label))) {
+      const own = bands.filter((c) => c.label === label);
+      ctx.fillStyle = this.color_of(own[0], theme);
       ctx.globalAlpha = band_opacity(label);
-      ctx.fill(new Path2D(path));
-      ctx.restore();
+      ctx.beginPath();
+      for (const c of own) trace_band(ctx, c, frame.x, frame.y);
+      ctx.fill();
+      ctx.globalAlpha = 1;
     }
   }
 
-  // Returns the paths of the bands by name.
-  bands(at_x, at_y) {
-    const out = new Map();
-    for (const c of this.curves)
-      if (c.style === 'band' && this.shown.has(c.label)) out.set(c.label, (out.get(c.label) ?? '') + band_path(c, at_x, at_y));
-    return out;
+  draw_line(ctx, c, frame, ratio) {
+    const [first, last] = this.shown_part(c);
+    ctx.lineWidth = (c.width ?? (c.bold ? 2.2 : 1.5)) * ratio;
+    ctx.setLineDash((c.dash ?? []).map((d) => d * ratio));
+    ctx.beginPath();
+    trace_line(ctx, c.x, c.y, frame.x, frame.y, first, last);
+    ctx.name = c.label;
+    ctx.stroke();
+    ctx.setLineDash([]);
   }
 
-  draw_curve(ctx, c, at, ratio) {
-    const { theme } = this.charts;
-    ctx.strokeStyle = ctx.fillStyle = this.color_of(c) ?? this.color(c.color);
-    ctx.lineWidth = (c.bold ? 2.2 : 1.5) * ratio;
-    ctx.lineJoin = 'round';
-    if (c.style === 'line' || c.style === 'other line') return stroke_line(ctx, c, at);
-    if (c.style === 'left out') return stroke_marks(ctx, c, at, ratio);
-    const many = c.x.length > 400, r = (many ? 1.7 : 2.9) * ratio;
-    ctx.lineWidth = 1.3 * ratio;
+  // Returns the indices between which a curve is drawn: all, or those within a span of time.
+  shown_part(c) {
+    if (!this.within || !c.time) return [0, c.x.length];
+    return [Math.max(0, index_at(c.time, this.within[0])), index_at(c.time, this.within[1]) + 1];
+  }
+
+  draw_points(ctx, c, frame, theme, ratio) {
+    const hollow = c.style === 'left out', many = c.x.length > (hollow ? 60 : 400);
+    const r = (hollow ? (many ? 2.4 : 4) : many ? 1.7 : 2.9) * ratio;
+    ctx.lineWidth = (many ? 0.9 : 1.6) * ratio;
     for (let i = 0; i < c.x.length; ++i) {
-      if (!Number.isFinite(c.y[i])) continue;
-      const point = new Path2D(point_path(c, at.x(c.x[i]), at.y(c.y[i]), r));
-      if (c.style === 'points') ctx.fill(point);
-      else {
-        ctx.save();
-        ctx.fillStyle = theme.paper;
-        ctx.fill(point);
-        ctx.restore();
-        ctx.stroke(point);
+      if (!Number.isFinite(c.x[i]) || !Number.isFinite(c.y[i])) continue;
+      ctx.beginPath();
+      if (hollow) {
+        trace_mark(ctx, c.mark ?? 0, frame.x(c.x[i]), frame.y(c.y[i]), r);
+        ctx.stroke();
+      } else {
+        trace_point(ctx, c, frame.x(c.x[i]), frame.y(c.y[i]), r);
+        draw_point(ctx, c, theme.paper, ratio);
       }
     }
   }
 
-  // Draws a dot at the current time of the replay; with several runs, in each run's color.
-  draw_now(ctx, at, ratio) {
-    if (this.time === null) return;
-    const { units } = this.charts, { x, y, curves } = this.spec;
-    for (const c of curves) {
-      if (Array.isArray(c.x) || !this.shown.has(c.label)) continue;
-      const px = at.x(units.convert(between(this.columns[c.x], this.time), x.unit));
-      const py = at.y(units.convert(between(this.columns[c.y], this.time), y.unit));
-      ctx.beginPath();
-      ctx.arc(px, py, 5 * ratio, 0, 2 * Math.PI);
-      ctx.fillStyle = c.run === undefined ? this.charts.theme.strong : this.color(c.color);
-      ctx.fill();
-    }
+  // Returns the picture for print of the current zoom, with the curves that are shown.
+  picture() {
+    const { x, y } = this.spec, axis = (span, of) => ({ span, name: this.axis_name(of) });
+    const spans = this.ranges(636, 320);
+    const key = (c) => ({ label: c.label, draw: (ctx, at_x, at_y, theme) => draw_sample(ctx, c, at_x, at_y, 24,
+      c.style === 'held out' || (c.bold && this.has_several_colors(c.label)) ? theme.quiet : this.color_of(c, theme), theme.paper) });
+    return picture({ title: this.spec.title, x: axis(spans.x, x), ys: [axis(spans.y, y)],
+                     keys: this.named().filter((c) => this.shown.has(c.label)).map(key),
+                     draw: (ctx, frame, theme) => this.draw_curves(ctx, frame, theme, 1) });
   }
 
+  // --- time ---
+
   set_time(t) {
-    if (!this.spec.curves.some((c) => !Array.isArray(c.x))) return;
     this.time = t;
-    if (this.plot && this.visible !== false) this.plot.redraw(false);
+    this.place_dots();
+  }
+
+  // Draws only the samples within a span of time.
+  set_within(view) {
+    this.within = view;
+    this.plot.redraw(false);
+  }
+
+  // Puts a dot at the current time of the replay on each curve of two channels; with several runs, in each
+  // run's color.
+  place_dots() {
+    const { units, theme } = this.charts, { x, y, curves } = this.spec;
+    curves.forEach((c, i) => {
+      const dot = this.dots[i];
+      if (Array.isArray(c.x) || this.time === null || !this.plot) return;
+      const { time } = this.columns[c.x], { width, height } = this.plot.over.getBoundingClientRect();
+      const at = [this.plot.valToPos(units.convert(between(this.columns[c.x], this.time), x.unit), 'x'),
+                  this.plot.valToPos(units.convert(between(this.columns[c.y], this.time), y.unit), 'y')];
+      const has_ended = this.within && (this.time < time[0] || this.time > time.at(-1));
+      dot.hidden = !this.shown.has(c.label) || has_ended || !(at[0] >= 0 && at[0] <= width && at[1] >= 0 && at[1] <= height);
+      dot.style.background = c.run === undefined ? theme.ink : this.color(c.color, theme);
+      dot.style.transform = `translate(${at[0]}px, ${at[1]}px)`;
+    });
   }
 
   // --- values ---
@@ -320,47 +376,17 @@ class Chart {
   }
 }
 
-function stroke_line(ctx, c, at) {
-  ctx.setLineDash((c.dash ?? []).map((d) => d * (devicePixelRatio || 1)));
-  ctx.beginPath();
-  let drawing = false;
-  for (let i = 0; i < c.x.length; ++i) {
-    const x = at.x(c.x[i]), y = at.y(c.y[i]);
-    if (!Number.isFinite(y)) { drawing = false; continue; }
-    drawing ? ctx.lineTo(x, y) : ctx.moveTo(x, y);
-    drawing = true;
-  }
-  ctx.stroke();
-  ctx.setLineDash([]);
-}
-
-function stroke_marks(ctx, c, at, ratio) {
-  const many = c.x.length > 60;
-  ctx.lineWidth = (many ? 0.9 : 1.6) * ratio;
-  for (let i = 0; i < c.x.length; ++i)
-    if (Number.isFinite(c.y[i])) ctx.stroke(new Path2D(mark_path(c.mark ?? 0, at.x(c.x[i]), at.y(c.y[i]), (many ? 2.4 : 4) * ratio)));
-}
-
 // All charts of a page in a grid.
 export class Charts {
   // `name`: first part of the file names of saved pictures.
   constructor(root, specs, columns, units, name) {
     Object.assign(this, { root, units, name });
     this.enlarged = new Enlarged();
-    this.read_theme();
+    this.theme = page_theme();
     this.list = specs.map((spec) => new Chart(spec, columns, this));
     root.append(element('div', { class: 'charts' }, ...this.list.map((c) => c.root)));
     for (const c of this.list) c.build();
     new ResizeObserver(() => this.resize()).observe(root);
-  }
-
-  read_theme() {
-    const css = getComputedStyle(document.documentElement);
-    const get = (name) => css.getPropertyValue(`--${name}`).trim();
-    this.palette = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => get(`line-${i}`));
-    this.dark = css.colorScheme === 'dark';
-    this.theme = { ink: get('quiet'), strong: get('ink'), grid: get('grid'), paper: get('paper'),
-                  font: `11px ${get('sans')}` };
   }
 
   resize() {
@@ -369,7 +395,7 @@ export class Charts {
 
   // Draws all charts again, after units or colors have changed.
   rebuild() {
-    this.read_theme();
+    this.theme = page_theme();
     for (const c of this.list) c.build(this.printing ? paper_width : undefined);
   }
 
@@ -380,5 +406,9 @@ export class Charts {
 
   set_time(t) {
     for (const c of this.list) c.set_time(t);
+  }
+
+  set_within(view) {
+    for (const c of this.list) c.set_within(view);
   }
 }

@@ -2,7 +2,6 @@
 import { Charts } from './charts.js';
 import { Machines } from './compare_scene.js';
 import { ComparisonTables, differ, judged_differently } from './compare_tables.js';
-import { FootPaths } from './foot_path.js';
 import { Appearance } from './appearance.js';
 import { by_id, element } from './page.js';
 import { Plan } from './plan.js';
@@ -132,8 +131,7 @@ class ComparePage {
     for (const p of this.plots.panels) if (p.spec.difference) p.root.classList.add('difference');
     this.plan = new Plan(by_id('plan'), data.runs, this.plots, this.shown);
     by_id('plan').hidden = !data.runs.some((r) => r.phases.stretches.some((s) => s.stance));
-    this.foot = this.make_foot();
-    this.charts = this.foot ? null : this.make_charts(samples);
+    this.make_charts(samples);
     this.plots.on_view = () => this.draw_view();
     this.plots.on_values = (t) => this.show(t);
     document.querySelector('.stage').classList.toggle('without-plots', !specs.length);
@@ -166,37 +164,41 @@ class ComparePage {
   print(begins) {
     this.player.set_playing(false);
     this.plots.print(begins);
+    this.charts?.print(begins);
     if (!this.machines.there) return;
     by_id('scene').style.cssText = begins ? paper_scene : '';
     this.machines.draw(this.player.time);
   }
 
-  make_foot() {
-    const of = (field) => this.of_channel.get(`${this.data.foot} ${field}`);
-    if (!of('x') || !of('y')) return null;
-    by_id('foot-note').textContent = this.data.foot.startsWith('/true')
-      ? 'Relative to the first joint, within the time shown in the plots.'
-      : 'From measured angles, relative to the first joint, within the time shown in the plots.';
-    return new FootPaths(by_id('path'), of('x').values, of('y').values, this.units, this.shown);
-  }
-
-  // Creates the charts of a test stand, which replace the foot path.
-  make_charts(columns) {
-    const { charts, runs } = this.data;
-    by_id('foot').replaceChildren();
-    if (!charts.length) {
+  // Creates the chart of the foot paths, or the charts of a test stand.
+  make_charts(samples) {
+    const { charts, runs } = this.data, foot = this.foot_chart();
+    this.follows_view = foot !== null;
+    if (!foot && !charts.length) {
       document.querySelector('.stage').classList.add('without-foot');
       by_id('foot').hidden = true;
-      return null;
+      return;
     }
-    const specs = charts.map((chart) => {
-      const names = new Set(chart.curves.map((c) => c.label).filter(Boolean));
-      const name = (c) => (names.size > 1 && c.label ? `${letter_of(c.run)} ${c.label}` : letter_of(c.run));
-      return { ...chart, note: runs.length > 2 ? '' : chart.note,
-               curves: chart.curves.map((c) => ({ ...c, ...line_of(c.run), style: c.style, label: name(c) })) };
-    });
-    by_id('foot').setAttribute('aria-label', 'Charts');
-    return new Charts(by_id('foot'), specs, columns, this.units, runs.map((r) => r.label).join('-'));
+    const columns = [...samples], of_run = (c) => ({ ...c, ...line_of(c.run), style: c.style });
+    const specs = foot ? [{ ...foot, curves: foot.curves.map((c) => ({ ...of_run(c), x: columns.push(c.x) - 1, y: columns.push(c.y) - 1 })) }]
+      : charts.map((chart) => {
+        const names = new Set(chart.curves.map((c) => c.label).filter(Boolean));
+        const name = (c) => (names.size > 1 && c.label ? `${letter_of(c.run)} ${c.label}` : letter_of(c.run));
+        return { ...chart, note: runs.length > 2 ? '' : chart.note, curves: chart.curves.map((c) => ({ ...of_run(c), label: name(c) })) };
+      });
+    if (!foot) by_id('foot').setAttribute('aria-label', 'Charts');
+    this.charts = new Charts(by_id('foot'), specs, columns, this.units, runs.map((r) => r.label).join('-'));
+  }
+
+  // Returns the foot path of each run, both axes to the same scale; null if the first run has no foot.
+  foot_chart() {
+    const of = (field) => this.of_channel.get(`${this.data.foot} ${field}`)?.values;
+    const [xs, ys] = [of('x'), of('y')];
+    if (!xs || !ys) return null;
+    const curves = xs.flatMap((x, run) => (x && ys[run] ? [{ run, label: letter_of(run), style: 'line', x, y: ys[run] }] : []));
+    return { title: 'Foot path', equal: true, x: { label: 'forward →', unit: 'm' }, y: { label: 'up ↑', unit: 'm' }, curves,
+             note: this.data.foot.startsWith('/true') ? 'Relative to the first joint, within the time shown in the plots.'
+               : 'From measured angles, relative to the first joint, within the time shown in the plots.' };
   }
 
   groups() {
@@ -276,9 +278,7 @@ class ComparePage {
 
   show(t) {
     this.charts?.set_time(t);
-    if (!this.foot) return;
     by_id('clock').textContent = `${t.toFixed(2)} s`;
-    this.foot.show(t);
   }
 
   step(by) {
@@ -290,7 +290,7 @@ class ComparePage {
 
   draw_view() {
     this.plan.draw();
-    this.foot?.draw(this.plots.view);
+    if (this.follows_view) this.charts.set_within(this.plots.view);
     this.show(this.plots.shown_time());
   }
 

@@ -2,7 +2,7 @@
 // their runs' colors. Parts without data are omitted: a recording with only angles gives links and
 // muscles, but no pressures or valves.
 import { between } from './samples.js';
-import { letter_of, palette_of_runs } from './runs.js';
+import { letter_of } from './runs.js';
 import { Scene } from './scene.js';
 import * as shapes from './shapes.js';
 import { StandScene } from './stand.js';
@@ -140,7 +140,7 @@ export class Machines {
   }
 
   at(t) {
-    const palette = palette_of_runs(), exact = 1e-6;
+    const palette = this.first.theme.lines, exact = 1e-6;
     return this.ghosts
       .filter(({ run }) => this.shown[run] && t >= this.runs[run].first_s - exact && t <= this.runs[run].last_s + exact)
       .map(({ run, scene }) => ({ scene, color: palette[run % palette.length] }));

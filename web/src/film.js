@@ -1,7 +1,6 @@
 // Film of a run, or of several runs over each other. `sinew film` runs this script in the page and requests
 // one frame after the other, each as base64. The content of a frame depends only on its time.
 import { GIFEncoder, applyPalette, quantize } from 'gifenc';
-import { palette_of_runs } from './runs.js';
 
 function base64(bytes) {
   let text = '';
@@ -52,7 +51,7 @@ class Film {
 
   // Draws the names of the runs: the first one in the text color, the others in the colors of their ghosts.
   draw_names() {
-    const { ctx, scene: { theme } } = this, palette = palette_of_runs();
+    const { ctx, scene: { theme } } = this, palette = theme.lines;
     ctx.font = `600 13px ${theme.sans}`;
     this.machines.runs.forEach((run, i) => {
       ctx.fillStyle = i ? palette[i % palette.length] : theme.ink;

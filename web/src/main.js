@@ -14,6 +14,7 @@ import { as_scene, StandScene } from './stand.js';
 import {
   count_verdicts, counts_in_words, faults_at, mark_faults, Numbers, show_faults, show_parameters, show_results, show_warnings,
 } from './tables.js';
+import { page_theme } from './theme.js';
 import { short_number, Units } from './units.js';
 
 const paper_scene = 'width: 640px; height: 330px;';  // size of the drawing in print, independent of the screen
@@ -138,26 +139,26 @@ class Page {
     canvas.height = height * ratio;
     const ctx = canvas.getContext('2d');
     ctx.scale(ratio, ratio);
-    const css = getComputedStyle(document.documentElement);
+    const theme = page_theme();
     const x = (t) => (t / this.run.duration) * width;
-    ctx.fillStyle = css.getPropertyValue('--rail');
+    ctx.fillStyle = theme.rail;
     ctx.beginPath();
     ctx.roundRect(0, height / 2 - 5, width, 10, 3);
     ctx.fill();
     for (const s of this.run.phases.stretches) {
-      ctx.fillStyle = css.getPropertyValue(s.stance ? '--rail-stance' : '--rail-swing');
+      ctx.fillStyle = theme[s.stance ? 'rail-stance' : 'rail-swing'];
       ctx.fillRect(x(s.from), height / 2 - 5, Math.max(0.5, x(s.to) - x(s.from) - 0.5), 10);
     }
-    ctx.fillStyle = css.getPropertyValue('--warn');
+    ctx.fillStyle = theme.warn;
     for (const w of this.run.warnings)
       for (const [from, to] of w.spans) ctx.fillRect(x(from), height / 2 + 7, Math.max(1.5, x(to) - x(from)), 2.5);
-    ctx.fillStyle = css.getPropertyValue('--bad');
+    ctx.fillStyle = theme.bad;
     for (const f of this.run.faults ?? []) ctx.fillRect(x(f.from), height / 2 - 9.5, Math.max(1.5, x(f.to) - x(f.from)), 2.5);
-    ctx.fillStyle = css.getPropertyValue('--mark');
+    ctx.fillStyle = theme.mark;
     for (const m of this.marks?.moves ?? []) ctx.fillRect(x(m.from) - 0.75, height / 2 - 9.5, 1.5, 8);
     const [from, to] = this.plots.view;
     if (to - from < this.run.duration) {
-      ctx.strokeStyle = css.getPropertyValue('--accent');
+      ctx.strokeStyle = theme.accent;
       ctx.lineWidth = 1.5;
       ctx.strokeRect(x(from), height / 2 - 8, Math.max(2, x(to) - x(from)), 16);
     }

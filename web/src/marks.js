@@ -72,21 +72,19 @@ export class Marks {
     return this.moves.filter((m) => m.from >= from && m.from <= to);
   }
 
-  // Draws a dashed line at each move, under the curves of a plot.
-  draw(u) {
-    const { ctx, bbox } = u, px = devicePixelRatio || 1;
-    ctx.save();
-    ctx.strokeStyle = this.plots.theme.mark;
+  // Draws a dashed line at each move, under the curves of a plot. `px`: size of a pixel.
+  draw(ctx, frame, theme, px) {
+    ctx.strokeStyle = theme.mark;
     ctx.lineWidth = px;
     ctx.setLineDash([3 * px, 3 * px]);
     for (const move of this.in_view()) {
-      const x = Math.round(u.valToPos(move.from, 'x', true)) + px / 2;
+      const x = Math.round(frame.x(move.from)) + px / 2;
       ctx.beginPath();
-      ctx.moveTo(x, bbox.top);
-      ctx.lineTo(x, bbox.top + bbox.height);
+      ctx.moveTo(x, frame.top);
+      ctx.lineTo(x, frame.bottom);
       ctx.stroke();
     }
-    ctx.restore();
+    ctx.setLineDash([]);
   }
 
   // Puts a handle with a description at the top of each line. Handles are created again when the view changes.

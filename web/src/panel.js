@@ -2,7 +2,9 @@
 // their values.
 import uPlot from 'uplot';
 import { range_of, spoiling_start, upright_ticks } from './axis.js';
+import { frame_of_plot, trace_line } from './frame.js';
 import { element } from './page.js';
+import { picture } from './picture.js';
 import { held } from './samples.js';
 import { Slices } from './slices.js';
 import { number, signed, tick_text } from './units.js';
@@ -103,22 +105,21 @@ export class Panel {
 
   // --- the plot ---
 
-  color(i) {
-    return this.plots.palette[this.spec.lines[i].color % this.plots.palette.length];
+  // Returns color, width and dashes of a line.
+  style(i, { lines } = this.plots.theme) {
+    const line = this.spec.lines[i];
+    return { color: lines[line.color % lines.length], width: line.width ?? (line.style === 'full' ? 1.5 : 1.25),
+             dash: line.dash ?? (line.style === 'dashed' ? [6, 4] : undefined) };
   }
 
   build() {
     this.plot?.destroy();
-    this.readouts.forEach((r, i) => r.button.style.setProperty('--line', this.color(i)));
-    const series = this.spec.lines.map((line, i) => ({
-      label: line.label,
-      scale: scales[this.units.indexOf(this.unit_of(i))] ?? 'y',
-      stroke: this.color(i),
-      width: line.width ?? (line.style === 'full' ? 1.5 : 1.25),
-      dash: line.dash ?? (line.style === 'dashed' ? [6, 4] : undefined),
-      show: this.shown[i],
-      points: { show: false },
-    }));
+    const series = this.spec.lines.map((line, i) => {
+      const { color, width, dash } = this.style(i);
+      this.readouts[i].button.style.setProperty('--line', color);
+      return { label: line.label, scale: scales[this.units.indexOf(this.unit_of(i))] ?? 'y', stroke: color, width, dash,
+               show: this.shown[i], points: { show: false } };
+    });
     this.plot = new uPlot(this.options(series), null, this.box);
     this.head = element('div', { class: 'playhead' });
     this.plot.over.append(this.head);
@@ -145,8 +146,9 @@ export class Panel {
       axes: this.axes(),
       series: [{}, ...series],
       hooks: {
-        drawClear: [(u) => this.plots.draw_phases(u)],
-        drawAxes: [(u) => this.plots.marks?.draw(u)],  // over the grid, under the curves
+        drawClear: [(u) => this.plots.draw_behind(u.ctx, frame_of_plot(u), this.plots.theme, devicePixelRatio || 1)],
+        // Over the grid, under the curves.
+        drawAxes: [(u) => this.plots.marks?.draw(u.ctx, frame_of_plot(u), this.plots.theme, devicePixelRatio || 1)],
         setSelect: [(u) => this.zoom_to(u)],
         setCursor: [(u) => this.plots.hover(u)],
         setScale: [() => this.head && this.place(this.plots.time)],  // called after a zoom
@@ -156,8 +158,8 @@ export class Panel {
 
   // Returns the time axis and one vertical axis per unit.
   axes() {
-    const { ink, grid, font } = this.plots.theme;
-    const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { show: false }, font, gap: 4 };
+    const { quiet, grid, font } = this.plots.theme;
+    const axis = { stroke: quiet, grid: { stroke: grid, width: 1 }, ticks: { show: false }, font, gap: 4 };
     const splits = (u, i, low, high, step) => upright_ticks(low, high, step, u.bbox.height / (devicePixelRatio || 1));
     const upright = { ...axis, size: axis_width, space: 26, splits, values: (u, ticks) => ticks.map(tick_text) };
     const right = { ...upright, scale: 'y2', side: 1, grid: { show: false } };
@@ -244,6 +246,41 @@ export class Panel {
   // Returns times and values within the view, in the units shown.
   slice(pixels) {
     return this.slices.of(this.plots.view, pixels, this.columns.map((c, i) => this.plots.units.of(this.unit_of(i))));
+  }
+
+  // Returns the picture for print of the lines that are shown, within the view.
+  picture() {
+    const { plots, spec, units } = this, data = this.slice(636), [x, ...lines] = data;
+    const stroke = (ctx, i, theme) => {
+      const { color, width, dash } = this.style(i, theme);
+      ctx.strokeStyle = color;
+      ctx.lineWidth = width;
+      ctx.setLineDash(dash ?? []);
+      ctx.stroke();
+      ctx.setLineDash([]);
+    };
+    const shown = spec.lines.map((line, i) => i).filter((i) => this.shown[i]);
+    const key = (i) => ({ label: spec.lines[i].label, draw: (ctx, at_x, at_y, theme) => {
+      ctx.beginPath();
+      ctx.moveTo(at_x, at_y);
+      ctx.lineTo(at_x + 24, at_y);
+      stroke(ctx, i, theme);
+    } });
+    return picture({
+      title: spec.title, keys: shown.map(key), x: { span: plots.view, name: 'time [s]' },
+      ys: units.slice(0, 2).map((unit, axis) => ({ span: this.range(axis, data), name: plots.units.of(unit).label })),
+      behind: (ctx, frame, theme) => plots.draw_behind(ctx, frame, theme, 1),
+      draw: (ctx, frame, theme) => {
+        plots.marks?.draw(ctx, frame, theme, 1);
+        for (const i of shown) {
+          const axis = Math.max(0, units.indexOf(this.unit_of(i)));
+          ctx.beginPath();
+          trace_line(ctx, x, lines[i], frame.x, (v) => frame.y(v, axis));
+          ctx.name = spec.lines[i].label;
+          stroke(ctx, i, theme);
+        }
+      },
+    });
   }
 
   place(t) {

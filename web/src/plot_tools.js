@@ -7,7 +7,6 @@ import { open_formula_dialog } from './formula_dialog.js';
 import { menu_button } from './menu.js';
 import { own_group, OwnPlots } from './own_plots.js';
 import { by_id, element } from './page.js';
-import { plot_picture } from './plot_picture.js';
 import { save_entries } from './saving.js';
 import { open_dialog, show_message } from './dialog.js';
 
@@ -102,7 +101,7 @@ export class PlotTools {
     const { own } = this, shown = panel.spec.lines.filter((l, i) => panel.shown[i]);
     const large = this.enlarged.panel === panel;
     return [
-      ...save_entries(this.run.name || this.run.title, () => panel.spec.title, () => plot_picture(panel)),
+      ...save_entries(this.run.name || this.run.title, () => panel.spec.title, () => panel.picture()),
       ['Add a formula…', () => this.write_formula(panel)],
       !large && shown.length && ['Add its lines to…', () => this.choose_place(panel, shown.map(in_layout))],
       panel.own && ['Rename…', () => this.rename(panel)],

@@ -1,5 +1,6 @@
 // Plots below each other, with a common time axis and cursor.
 import { Panel } from './panel.js';
+import { page_theme } from './theme.js';
 
 export class Plots {
   // `run` as the program writes it; `on_seek(t)` is called when the reader clicks at a time.
@@ -8,7 +9,7 @@ export class Plots {
     this.view = this.whole = [run.start ?? 0, run.duration || 1];
     this.time = 0;
     this.hovered = null;
-    this.read_theme();
+    this.theme = page_theme();
     this.columns = columns;
     this.groups_shown = new Map();
     this.panels = run.panels.map((spec) => new Panel(spec, columns, this));
@@ -41,14 +42,6 @@ export class Plots {
     this.root.append(...panels.map((p) => p.root));
   }
 
-  read_theme() {
-    const css = getComputedStyle(document.documentElement);
-    const get = (name) => css.getPropertyValue(name).trim();
-    this.palette = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => get(`--line-${i}`));
-    this.theme = { ink: get('--quiet'), grid: get('--grid'), stance: get('--stance'), fault: get('--fault'), edge: get('--bad'), mark: get('--mark'),
-                  font: `11px ${get('--sans')}` };
-  }
-
   // Draws only plots that are in the window or near it.
   watch() {
     this.by_root = new Map(this.panels.map((p) => [p.root, p]));
@@ -66,29 +59,23 @@ export class Plots {
     this.root.addEventListener('mouseleave', () => this.unhover());
   }
 
-  // Shades stance phases, and injected faults between two edges.
-  draw_phases(u) {
-    const { ctx, bbox } = u, px = devicePixelRatio || 1;
-    ctx.save();
-    ctx.fillStyle = this.theme.stance;
-    for (const s of this.run.phases.stretches) if (s.stance) this.fill(u, s, 0);
+  // Shades stance phases, and injected faults between two edges. `px`: size of a pixel.
+  draw_behind(ctx, frame, theme, px) {
+    // Fills a stretch of time, at least `least` wide.
+    const fill = ({ from, to }, least) => {
+      if (to < this.view[0] || from > this.view[1]) return;
+      const left = Math.max(frame.left, frame.x(from)), right = Math.min(frame.right, frame.x(to));
+      ctx.fillRect(left, frame.top, Math.max(least, right - left), frame.bottom - frame.top);
+    };
+    ctx.fillStyle = theme.stance;
+    for (const s of this.run.phases.stretches) if (s.stance) fill(s, 0);
     for (const f of this.run.faults ?? []) {
-      ctx.fillStyle = this.theme.fault;
-      this.fill(u, f, px);
-      ctx.fillStyle = this.theme.edge;
+      ctx.fillStyle = theme.fault;
+      fill(f, px);
+      ctx.fillStyle = theme.bad;
       for (const t of [f.from, f.to])
-        if (t >= this.view[0] && t <= this.view[1]) ctx.fillRect(u.valToPos(t, 'x', true) - px / 2, bbox.top, px, bbox.height);
+        if (t >= this.view[0] && t <= this.view[1]) ctx.fillRect(frame.x(t) - px / 2, frame.top, px, frame.bottom - frame.top);
     }
-    ctx.restore();
-  }
-
-  // Fills a stretch of time, at least `least` wide [px].
-  fill(u, { from, to }, least) {
-    const { ctx, bbox } = u;
-    if (to < this.view[0] || from > this.view[1]) return;
-    const left = Math.max(bbox.left, u.valToPos(from, 'x', true));
-    const right = Math.min(bbox.left + bbox.width, u.valToPos(to, 'x', true));
-    ctx.fillRect(left, bbox.top, Math.max(least, right - left), bbox.height);
   }
 
   // --- time ---
@@ -161,7 +148,7 @@ export class Plots {
 
   // Draws all plots again, after units or colors have changed.
   rebuild() {
-    this.read_theme();
+    this.theme = page_theme();
     for (const p of this.panels) {
       p.name_units();
       p.stale = true;

@@ -12,18 +12,6 @@ export function line_of(run) {
   return { color: run, style: run === 0 ? 'full' : 'dashed', width: run === 0 ? 2.5 : 1.8, dash: dash.length ? dash : undefined };
 }
 
-export function set_line(ctx, run, palette) {
-  const { color, width, dash } = line_of(run);
-  ctx.strokeStyle = palette[color % palette.length];
-  ctx.lineWidth = width;
-  ctx.setLineDash(dash ?? []);
-}
-
-export function palette_of_runs() {
-  const css = getComputedStyle(document.documentElement);
-  return [0, 1, 2, 3, 4, 5, 6, 7].map((i) => css.getPropertyValue(`--line-${i}`).trim());
-}
-
 function swatch(run) {
   const { color, width, dash } = line_of(run);
   const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');

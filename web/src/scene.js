@@ -3,6 +3,7 @@
 import { between, index_at, open_within } from './samples.js';
 import { pressure_color } from './colors.js';
 import * as shapes from './shapes.js';
+import { page_theme } from './theme.js';
 
 const trail_seconds = 3;
 const window_seconds = 0.01;  // a valve is lit if it was open at any time within it
@@ -27,10 +28,7 @@ export class Scene {
   }
 
   read_theme() {
-    const css = getComputedStyle(document.documentElement);
-    this.theme = Object.fromEntries(
-      ['ink', 'quiet', 'ground', 'ground-edge', 'metal', 'metal-edge', 'paper', 'actual', 'desired',
-       'force', 'inlet', 'exhaust', 'tendon', 'unlit', 'sans'].map((n) => [n, css.getPropertyValue(`--${n}`).trim()]));
+    this.theme = page_theme();
   }
 
   // --- extent of the drawing ---

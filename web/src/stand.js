@@ -3,6 +3,7 @@
 import { between, open_within } from './samples.js';
 import { pressure_color } from './colors.js';
 import * as parts from './stand_parts.js';
+import { page_theme } from './theme.js';
 
 const window_seconds = 0.01;  // a valve is lit if it was open at any time within it
 
@@ -24,10 +25,7 @@ export class StandScene {
   }
 
   read_theme() {
-    const css = getComputedStyle(document.documentElement);
-    this.theme = Object.fromEntries(
-      ['ink', 'quiet', 'edge', 'ground', 'ground-edge', 'metal', 'metal-edge', 'paper', 'actual', 'desired', 'force',
-       'inlet', 'exhaust', 'tendon', 'unlit', 'sans'].map((n) => [n, css.getPropertyValue(`--${n}`).trim()]));
+    this.theme = page_theme();
   }
 
   at(column, t) {

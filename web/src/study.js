@@ -3,12 +3,13 @@
 import { pressure_gradient } from './colors.js';
 import { Appearance } from './appearance.js';
 import { by_id, element } from './page.js';
-import { colors_now, value_text } from './study_chart.js';
+import { value_text, view_colors } from './study_chart.js';
 import { Filter, StudyData } from './study_data.js';
 import { Parallel } from './study_parallel.js';
 import { Growing } from './study_growing.js';
 import { ChosenRow, Importance, RowTable } from './study_tables.js';
 import { chooser, History, Scatter, Surface } from './study_views.js';
+import { page_theme } from './theme.js';
 import { Units } from './units.js';
 
 class StudyPage {
@@ -169,7 +170,7 @@ class StudyPage {
 
   draw() {
     this.waiting = undefined;
-    const began = performance.now(), colors = colors_now();
+    const began = performance.now(), colors = view_colors(page_theme());
     this.show_filter();
     for (const view of [this.parallel, ...this.views]) if (!this.is_dragging || !view.takes_long) view.draw(colors);
     this.table.draw();

@@ -1,29 +1,25 @@
 // Canvas with two axes and marks for rows, used by history, scatter and surface. Everything is drawn once
 // on a second canvas; the row under the pointer and the chosen row are drawn over it.
+import { trace_disc, trace_mark, triangle } from './chart_shapes.js';
 import { pressure_color } from './colors.js';
+import { draw_axes, frame_of } from './frame.js';
 import { menu_button } from './menu.js';
 import { element } from './page.js';
-import { on_paper } from './picture.js';
 import { save_entries } from './saving.js';
-import { round_values } from './study_math.js';
 import { SvgContext } from './svg_context.js';
-import { number, tick_text } from './units.js';
+import { page_theme, paper_theme } from './theme.js';
+import { number } from './units.js';
 
 export const color_steps = 16;
 const margin = { left: 58, right: 14, top: 28, bottom: 40 };  // [px]
 const near_enough = 18;  // largest distance of the pointer to a mark [px]
 
-// Returns the current colors of the page.
-export function colors_now() {
-  const css = getComputedStyle(document.documentElement), of = (name) => css.getPropertyValue(`--${name}`).trim();
-  return { ink: of('ink'), quiet: of('quiet'), grid: of('grid'), paper: of('paper'), edge: of('edge'), unlit: of('unlit'),
-           accent: of('accent'), sans: of('sans'), studies: [of('line-0'), of('line-1')],
-           ramp: ramp_on(of('paper')) };
-}
+// Returns the colors of the views, of the page or for print.
+export const view_colors = (theme) => ({ ...theme, ramp: ramp_on(theme) });
 
 // Returns the part of the color scale that contrasts with the background, in steps.
-function ramp_on(paper) {
-  const dark = parseInt(paper.slice(1, 3), 16) < 128, [from, to] = dark ? [0.28, 1] : [0, 0.88];
+function ramp_on({ dark }) {
+  const [from, to] = dark ? [0.28, 1] : [0, 0.88];
   return Array.from({ length: color_steps }, (_, i) => pressure_color(from + ((to - from) * i) / (color_steps - 1)));
 }
 
@@ -31,7 +27,7 @@ function ramp_on(paper) {
 // value is missing.
 export function coloring(data, column, colors) {
   if (!column || !column.varies)
-    return { list: colors.studies, column: null, step_of: (row) => data.study[row] };
+    return { list: colors.lines, column: null, step_of: (row) => data.study[row] };
   const { values, low, high } = column, scale = color_steps / (high - low);
   return { list: colors.ramp, column,
            step_of: (row) => (values[row] === values[row] ? Math.min(color_steps - 1, Math.floor((values[row] - low) * scale)) : -1) };
@@ -39,10 +35,11 @@ export function coloring(data, column, colors) {
 
 // Returns the axis of a column, slightly wider than its values.
 export function axis_of(column, room = 0.04) {
-  const { low, high } = column;
-  if (!(high >= low)) return { span: [0, 1], column };
+  const { low, high, heading: name } = column;
+  const ticks = column.number ? undefined : column.words.map((w, i) => [i, w.length > 18 ? `${w.slice(0, 17)}…` : w]);
+  if (!(high >= low)) return { span: [0, 1], name, ticks };
   const wide = high > low ? room * (high - low) : Math.abs(low) * 0.1 || 1;
-  return { span: [low - wide, high + wide], column };
+  return { span: [low - wide, high + wide], name, ticks };
 }
 
 export const value_text = (column, value) =>
@@ -61,6 +58,16 @@ export function fresh_context(canvas, still, width, height) {
   return ctx;
 }
 
+// Copies `still` to the canvas. Returns the context of the canvas, for marks over it.
+export function still_drawn(canvas, still) {
+  const ctx = canvas.getContext('2d'), ratio = window.devicePixelRatio || 1;
+  ctx.setTransform(1, 0, 0, 1, 0, 0);
+  ctx.clearRect(0, 0, canvas.width, canvas.height);
+  ctx.drawImage(still, 0, 0);
+  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+  return ctx;
+}
+
 // Returns the menu of a view. To save a picture, the view is drawn into an SvgContext in light colors, and
 // then again on the page. `view` has `title`, `canvas`, draw(colors), and a `chart` with `height` and
 // `instead`, the context that replaces its canvas.
@@ -69,12 +76,11 @@ export function picture_menu(page, view) {
     const ctx = new SvgContext(), { chart } = view;
     chart.instead = ctx;
     try {
-      const colors = on_paper(colors_now);
-      view.draw(colors);
-      return ctx.svg(view.title, view.canvas.clientWidth, chart.height, colors.sans);
+      view.draw(view_colors(paper_theme()));
+      return ctx.svg(view.title, view.canvas.clientWidth, chart.height);
     } finally {
       chart.instead = null;
-      view.draw(colors_now());
+      view.draw(view_colors(page_theme()));
       page.mark();
     }
   };
@@ -101,46 +107,15 @@ export class Chart {
     const width = this.canvas.clientWidth;
     if (!width) return null;
     const ctx = this.instead ?? fresh_context(this.canvas, this.still, width, this.height);
-    this.box = { left: margin.left, right: width - margin.right, top: margin.top, bottom: this.height - margin.bottom };
-    const { left, right, top, bottom } = this.box;
-    const [x0, x1] = x_axis.span, [y0, y1] = y_axis.span;
-    this.x = (v) => left + ((v - x0) / (x1 - x0)) * (right - left);
-    this.y = (v) => bottom - ((v - y0) / (y1 - y0)) * (bottom - top);
+    const box = { left: margin.left, right: width - margin.right, top: margin.top, bottom: this.height - margin.bottom };
+    this.frame = frame_of(box, x_axis, [{ ...y_axis, name: `↑ ${y_axis.name}` }]);
     this.colors = colors;
-    this.axes(ctx, x_axis, y_axis);
+    draw_axes(ctx, this.frame, colors);
     return ctx;
   }
 
-  axes(ctx, x_axis, y_axis) {
-    const { left, right, top, bottom } = this.box, { colors } = this;
-    ctx.font = `11px ${colors.sans}`;
-    ctx.strokeStyle = colors.grid;
-    ctx.fillStyle = colors.quiet;
-    ctx.lineWidth = 1;
-    ctx.beginPath();
-    ctx.textAlign = 'center';
-    ctx.textBaseline = 'top';
-    for (const [v, words] of ticks(x_axis, (right - left) / 80)) {
-      const x = Math.round(this.x(v)) + 0.5;
-      ctx.moveTo(x, top);
-      ctx.lineTo(x, bottom);
-      ctx.fillText(words, Math.min(right - ctx.measureText(words).width / 2, x), bottom + 5);
-    }
-    ctx.textAlign = 'right';
-    ctx.textBaseline = 'middle';
-    for (const [v, words] of ticks(y_axis, (bottom - top) / 50)) {
-      const y = Math.round(this.y(v)) + 0.5;
-      ctx.moveTo(left, y);
-      ctx.lineTo(right, y);
-      ctx.fillText(words, left - 6, y);
-    }
-    ctx.stroke();
-    ctx.textAlign = 'center';
-    ctx.textBaseline = 'alphabetic';
-    ctx.fillText(fitting(ctx, x_axis.label ?? x_axis.column.heading, right - left), (left + right) / 2, this.height - 4);
-    ctx.textAlign = 'left';
-    ctx.fillText(fitting(ctx, `↑ ${y_axis.column.heading}`, right - 8), 8, 14);
-  }
+  x(v) { return this.frame.x(v); }
+  y(v) { return this.frame.y(v); }
 
   // Computes the positions of the rows' marks. `xs`, `ys`: values by row.
   place(rows, xs, ys) {
@@ -161,10 +136,12 @@ export class Chart {
     });
     const many = this.rows.length > 3000 ? 0.7 : 1;
     for (const [key, members] of [...groups].sort((a, b) => (b[0] & 1) - (a[0] & 1) || a[0] - b[0])) {
-      const step = (key >> 2) - 1, hollow = key & 1, triangle = key & 2;
+      const step = (key >> 2) - 1, hollow = key & 1, second = key & 2;
       const size = many * (sized ? 2.2 + (2.6 * Math.max(0, step)) / color_steps : 3.4);
       ctx.beginPath();
-      for (const i of members) trace(ctx, this.px[i], this.py[i], size, triangle);
+      for (const i of members)
+        if (second) trace_mark(ctx, triangle, this.px[i], this.py[i], 1.1 * size);
+        else trace_disc(ctx, this.px[i], this.py[i], size);
       const paint = step < 0 ? this.colors.unlit : color.list[step];
       ctx.globalAlpha = hollow ? 0.45 : 0.85;
       ctx.lineWidth = 1.2;
@@ -176,17 +153,13 @@ export class Chart {
 
   // Shows the drawing with the row at the pointer and the chosen row over it.
   show(over, chosen, words) {
-    if (!this.box) return;
-    const ctx = this.canvas.getContext('2d'), ratio = window.devicePixelRatio || 1;
-    ctx.setTransform(1, 0, 0, 1, 0, 0);
-    ctx.clearRect(0, 0, this.canvas.width, this.canvas.height);
-    ctx.drawImage(this.still, 0, 0);
-    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    if (!this.frame) return;
+    const ctx = still_drawn(this.canvas, this.still);
     for (const [row, size] of [[chosen, 8], [over, 6]]) {
       const i = this.index?.get(row);
       if (i === undefined) continue;
       ctx.beginPath();
-      ctx.arc(this.px[i], this.py[i], size, 0, 2 * Math.PI);
+      trace_disc(ctx, this.px[i], this.py[i], size);
       outlined(ctx, this.colors, row === chosen);
       if (row === over && words) this.label(ctx, this.px[i], this.py[i], words(row));
     }
@@ -194,7 +167,7 @@ export class Chart {
 
   label(ctx, x, y, text) {
     ctx.font = `12px ${this.colors.sans}`;
-    const width = ctx.measureText(text).width + 12, right = x + 12 + width > this.box.right;
+    const width = ctx.measureText(text).width + 12, right = x + 12 + width > this.frame.right;
     const left = Math.max(2, right ? x - 12 - width : x + 12), top = Math.max(2, y - 26);
     ctx.fillStyle = this.colors.paper;
     ctx.strokeStyle = this.colors.edge;
@@ -228,30 +201,4 @@ export function outlined(ctx, colors, is_chosen) {
     ctx.lineWidth = width;
     ctx.stroke();
   }
-}
-
-function trace(ctx, x, y, size, triangle) {
-  if (!triangle) {
-    ctx.moveTo(x + size, y);
-    ctx.arc(x, y, size, 0, 2 * Math.PI);
-    return;
-  }
-  const s = 1.25 * size;
-  ctx.moveTo(x, y - s);
-  ctx.lineTo(x + s, y + 0.8 * s);
-  ctx.lineTo(x - s, y + 0.8 * s);
-  ctx.closePath();
-}
-
-// Returns about `count` ticks of an axis as [value, text].
-function ticks({ span, column }, count) {
-  if (column && !column.number) return column.words.map((w, i) => [i, w.length > 18 ? `${w.slice(0, 17)}…` : w]);
-  return round_values(span, Math.max(2, count)).filter((v) => v >= span[0] && v <= span[1]).map((v) => [v, tick_text(v)]);
-}
-
-function fitting(ctx, text, width) {
-  if (ctx.measureText(text).width <= width) return text;
-  let most = text.length;
-  while (most > 4 && ctx.measureText(`${text.slice(0, most)}…`).width > width) --most;
-  return `${text.slice(0, most)}…`;
 }

@@ -191,18 +191,3 @@ export function level_lines(nodes, size, level) {
     }
   return pieces;
 }
-
-// Returns a round step that divides `span` into about `count` parts.
-export function step_of(span, count) {
-  const rough = span / count, power = 10 ** Math.floor(Math.log10(rough));
-  return power * ([1, 2, 5, 10].find((m) => m * power >= rough * (1 - 1e-9)) ?? 10);
-}
-
-// Returns about `count` round values within the span.
-export function round_values([low, high], count) {
-  if (!(high > low)) return [low];
-  const step = step_of(high - low, count), out = [];
-  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * (high - low); ++i)
-    out.push(+(i * step).toPrecision(12));
-  return out;
-}

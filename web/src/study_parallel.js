@@ -1,7 +1,7 @@
 // Parallel coordinates: an axis for each column, a line for each row. A range drawn on an axis filters
 // every view.
 import { element } from './page.js';
-import { axis_of, coloring, fresh_context, outlined, picture_menu, value_text } from './study_chart.js';
+import { axis_of, coloring, fresh_context, outlined, picture_menu, still_drawn, value_text } from './study_chart.js';
 import { number } from './units.js';
 
 const pad = { top: 12, bottom: 12 };  // [px]
@@ -216,11 +216,7 @@ export class Parallel {
 
   show(over, chosen) {
     if (!this.at_x) return;
-    const ctx = this.canvas.getContext('2d'), ratio = window.devicePixelRatio || 1;
-    ctx.setTransform(1, 0, 0, 1, 0, 0);
-    ctx.clearRect(0, 0, this.canvas.width, this.canvas.height);
-    ctx.drawImage(this.still, 0, 0);
-    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const ctx = still_drawn(this.canvas, this.still);
     for (const row of [chosen, over]) {
       if (row < 0) continue;
       ctx.beginPath();

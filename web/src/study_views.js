@@ -1,7 +1,9 @@
 // Views of a study: history, scatter and surface. Each is a canvas with its choices above it.
+import { ticks } from './axis.js';
+import { trace_disc } from './chart_shapes.js';
 import { element } from './page.js';
 import { axis_of, Chart, coloring, color_steps, picture_menu, value_text } from './study_chart.js';
-import { best_so_far, level_lines, pareto_front, round_values, surface } from './study_math.js';
+import { best_so_far, level_lines, pareto_front, surface } from './study_math.js';
 import { number, tick_text } from './units.js';
 
 const surface_size = 40;  // nodes across
@@ -84,7 +86,7 @@ export class History extends View {
     const { page: { data, filter }, y, chart } = this;
     const xs = this.by === 'generation' ? data.generation : data.number;
     const last = filter.rows.reduce((most, r) => Math.max(most, xs[r]), 1);
-    const ctx = chart.begin({ span: [-0.02 * last, 1.02 * last], label: this.by }, axis_of(y), colors);
+    const ctx = chart.begin({ span: [-0.02 * last, 1.02 * last], name: this.by }, axis_of(y), colors);
     if (!ctx) return;
     chart.place(filter.rows, xs, y.values);
     chart.marks(ctx, data, coloring(data, null, colors));
@@ -100,7 +102,7 @@ export class History extends View {
     if (!rows.length) return null;
     rows.sort((a, b) => xs[a] - xs[b] || data.number[a] - data.number[b]);
     const bests = best_so_far(rows.map((r) => values[r]), y.less);
-    ctx.strokeStyle = colors.studies[study];
+    ctx.strokeStyle = colors.lines[study];
     ctx.lineWidth = 2.5;
     ctx.setLineDash(study ? [7, 4] : []);
     ctx.beginPath();
@@ -158,10 +160,7 @@ export class Scatter extends View {
     });
     ctx.stroke();
     ctx.beginPath();
-    for (const r of front) {
-      ctx.moveTo(chart.x(x.values[r]) + 6, chart.y(y.values[r]));
-      ctx.arc(chart.x(x.values[r]), chart.y(y.values[r]), 6, 0, 2 * Math.PI);
-    }
+    for (const r of front) trace_disc(ctx, chart.x(x.values[r]), chart.y(y.values[r]), 6);
     ctx.stroke();
   }
 }
@@ -228,7 +227,7 @@ export class Surface extends View {
     ctx.font = `11px ${colors.sans}`;
     ctx.textAlign = 'center';
     ctx.textBaseline = 'middle';
-    for (const level of round_values(span, 7)) {
+    for (const level of ticks(...span, 7)) {
       const pieces = level_lines(nodes, surface_size, level);
       if (pieces.length < 3) continue;
       ctx.strokeStyle = colors.ink;

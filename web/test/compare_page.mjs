@@ -69,7 +69,7 @@ test('values and differences at the cursor are those of the samples', () => comp
 }));
 
 test('a run is hidden and shown everywhere', () => compared('two', async (page) => {
-  const foot = () => page.locator('#path').evaluate((c) => c.toDataURL());
+  const foot = () => page.locator('#foot .chart canvas').first().evaluate((c) => c.toDataURL());
   const shown = () => page.evaluate(() => window.sinew.page.plots.panels.filter((p) => p.plot && !p.spec.difference)
     .map((p) => p.plot.series.slice(1).map((s) => s.show)));
   const both = await foot();
@@ -83,7 +83,7 @@ test('a run is hidden and shown everywhere', () => compared('two', async (page) 
 }));
 
 test('zoom and cursor are one for plots, plan and foot', () => compared('two', async (page) => {
-  const foot = () => page.locator('#path').evaluate((c) => c.toDataURL());
+  const foot = () => page.locator('#foot .chart canvas').first().evaluate((c) => c.toDataURL());
   const plan = () => page.locator('#plan').evaluate((c) => c.toDataURL());
   const before = [await foot(), await plan()];
   const box = await page.locator('.panel .u-over').first().boundingBox();

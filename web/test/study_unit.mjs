@@ -1,8 +1,9 @@
 // Unit tests of the page of a study: Pareto fronts, shares of variance, surfaces, filters.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { ticks } from '../src/axis.js';
 import { Filter, heading_parts, StudyData } from '../src/study_data.js';
-import { best_so_far, bins_of, level_lines, pareto_front, round_values, surface, variance_share } from '../src/study_math.js';
+import { best_so_far, bins_of, level_lines, pareto_front, surface, variance_share } from '../src/study_math.js';
 
 // Returns a generator of repeatable random numbers in [0, 1).
 function random_from(seed) {
@@ -111,8 +112,8 @@ test('lines of equal value are where the surface has the value', () => {
   for (const [u0, v0, u1, v1] of pieces) for (const [u, v] of [[u0, v0], [u1, v1]]) near(Math.hypot(u - 0.5, v - 0.5), 0.3, 2e-3);
   nodes[210] = NaN;
   assert.ok(level_lines(nodes, size, 0.3).length <= pieces.length);
-  assert.deepEqual(round_values([0.13, 0.87], 5), [0.2, 0.4, 0.6, 0.8]);
-  assert.deepEqual(round_values([3, 3], 5), [3]);
+  assert.deepEqual(ticks(0.13, 0.87, 5), [0.2, 0.4, 0.6, 0.8]);
+  assert.deepEqual(ticks(3, 3, 5), [3]);
 });
 
 // --- rows ---

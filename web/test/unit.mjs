@@ -4,11 +4,12 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { deflateSync } from 'node:zlib';
 import { ticks, upright_ticks } from '../src/axis.js';
-import { point_path } from '../src/chart_shapes.js';
+import { trace_point } from '../src/chart_shapes.js';
 import { append_stretches, GrowingColumns } from '../src/growing.js';
 import { bucket_size, level_for, pyramid } from '../src/pyramid.js';
 import { between, held, index_at, open_within, read_samples } from '../src/samples.js';
 import { Slices } from '../src/slices.js';
+import { SvgContext } from '../src/svg_context.js';
 import { number, short_number, unit_of_key, Units, words_of_key } from '../src/units.js';
 
 // Returns a generator of repeatable random numbers in [0, 1).
@@ -20,10 +21,15 @@ function random_from(seed) {
 // --- shapes ---
 
 test('points with a mark are triangles and others discs, larger where they are held out', () => {
+  const point_path = (curve, x, y, r) => {
+    const ctx = new SvgContext();
+    trace_point(ctx, curve, x, y, r);
+    return ctx.d;
+  };
   const corners = (path) => [...path.matchAll(/[ML]([-\d.]+) ([-\d.]+)/g)].map((m) => [Number(m[1]), Number(m[2])]);
   const width = (path) => { const x = corners(path).map(([at]) => at); return Math.max(...x) - Math.min(...x); };
   const filling = point_path({ style: 'points' }, 10, 20, 4), venting = point_path({ style: 'points', mark: 1 }, 10, 20, 4);
-  assert.match(filling, /^M6 20a4 4 .*Z$/);
+  assert.match(filling, /^M14 20a4 4 .*Z$/);
   assert.equal(corners(venting).length, 3);
   assert.ok(venting.endsWith('Z') && !venting.includes('a'));
   const middle = corners(venting).reduce(([x, y], [u, v]) => [x + u / 3, y + v / 3], [0, 0]);
