@@ -55,7 +55,6 @@ class Ghost extends Scene {
   // `base`: position of the first machine's body, to which this one is moved; null: it is not moved.
   paint(ctx, view, t, base, color) {
     this.color = color;
-    this.read_theme();
     this.theme = in_color(this.theme, color);
     const own = this.pose(0, t);
     ctx.save();
@@ -75,21 +74,20 @@ class GhostStand extends StandScene {
   draw() {}
 
   // Draws this stand at the position of the first one.
-  paint(ctx, v, t, color) {
+  paint(ctx, v, t, base, color) {
     const state = { ...this.state(t), color, inlet: false, exhaust: false };
     if (!Number.isFinite(state.length)) return;
     const theme = in_color(this.theme, color);
-    if (this.spec.bore > 0) parts.cylinder(ctx, v, this.spec, state, theme);
-    else parts.actuators(ctx, v, this.spec, state, theme);
+    parts.element(ctx, v, this.spec, state, theme);
     parts.load_cell(ctx, v, state.length, '', theme);
   }
 }
 
-// Drawing with ghosts over it. `ghosts_at(t)` returns those that have data at t.
-class Machine extends Scene {
+// Returns a drawing with ghosts over it. `ghosts_at(t)` returns those that have data at t.
+const with_ghosts = (Drawing) => class extends Drawing {
   draw_machine(ctx, view, t) {
     if (!this.hidden) super.draw_machine(ctx, view, t);
-    const base = this.follow ? this.pose(0, t) : null;
+    const base = this.follow && this.spec.frames ? this.pose(0, t) : null;
     for (const { scene, color } of this.ghosts_at?.(t) ?? [])
       this.ghost_layer.blend(ctx, (on) => scene.paint(on, view, t, base, color));
   }
@@ -97,18 +95,7 @@ class Machine extends Scene {
   draw_force(ctx, view, t) {
     if (!this.hidden) super.draw_force(ctx, view, t);
   }
-}
-
-class Stand extends StandScene {
-  draw(t) {
-    super.draw(t);
-    const { canvas } = this;
-    if (!canvas.clientWidth || !canvas.clientHeight) return;
-    const ctx = canvas.getContext('2d'), v = this.place(canvas.clientWidth, canvas.clientHeight);
-    for (const { scene, color } of this.ghosts_at?.(t) ?? [])
-      this.ghost_layer.blend(ctx, (on) => scene.paint(on, v, t, color));
-  }
-}
+};
 
 const union = (a, b) => [Math.min(a[0], b[0]), Math.max(a[1], b[1])];
 
@@ -121,7 +108,7 @@ export class Machines {
     this.there = this.drawn.length > 0;
     if (!this.there) return;
     const made = (Of, run) => new Of(canvas, runs[run][kind], columns, units, runs[run].last_s);
-    const [of_first, of_others] = kind === 'scene' ? [Machine, Ghost] : [Stand, GhostStand];
+    const [of_first, of_others] = kind === 'scene' ? [with_ghosts(Scene), Ghost] : [with_ghosts(StandScene), GhostStand];
     this.first = made(of_first, this.drawn[0]);
     this.ghosts = this.drawn.slice(1).map((run) => ({ run, scene: made(of_others, run) }));
     this.first.ghost_layer = new GhostLayer();

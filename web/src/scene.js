@@ -14,7 +14,6 @@ export class Scene {
     this.follow = true;
     this.tick_step = null;  // distance of the ground's ticks, for an animation that loops [m]
     this.column = (index) => (index === null || index === undefined ? null : columns[index]);
-    this.reach = longest_reach(spec);
     this.refit();
     this.read_theme();
     new ResizeObserver(() => this.draw(this.time ?? 0)).observe(canvas);
@@ -22,6 +21,7 @@ export class Scene {
 
   // Adapts area, pressure scale and force scale to the columns, which may have grown.
   refit() {
+    this.reach = this.spec.links.reduce((total, link) => total + link.length, 0) || 0.3;
     this.box = this.bounds();
     this.pressures = this.pressure_range();
     this.force_scale = this.find_force_scale();
@@ -127,12 +127,16 @@ export class Scene {
     ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
     ctx.clearRect(0, 0, width, height);
     const view = this.place(ctx, width, height, t);
-    this.draw_world(ctx, view);
+    this.draw_world(ctx, view, t);
     this.draw_paths(ctx, view, t);
     this.draw_machine(ctx, view, t);
     this.draw_force(ctx, view, t);
-    if (this.spec.surface !== undefined) return;  // the ticks of the ground already show the scale
     ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.draw_scale(ctx, view, width, height);
+  }
+
+  draw_scale(ctx, view, width, height) {
+    if (this.spec.surface !== undefined) return;  // the ticks of the ground already show the scale
     shapes.scale_bar(ctx, view, this.units, this.theme, width, height);
   }
 
@@ -255,9 +259,4 @@ export class Scene {
     shapes.arrow(ctx, view, from, [x * this.force_scale, y * this.force_scale],
                  this.force_text(Math.hypot(x, y)), this.theme);
   }
-}
-
-function longest_reach(spec) {
-  const sum = spec.links.reduce((total, link) => total + link.length, 0);
-  return sum > 0 ? sum : 0.3;
 }

@@ -30,7 +30,7 @@ function text(ctx, view, words, x, y, color, { align = 'center', size = 11, sans
 }
 
 // Returns 1, 2 or 5 times a power of ten, close to `size`.
-function round_step(size) {
+export function round_step(size) {
   const power = 10 ** Math.floor(Math.log10(size));
   const rest = size / power;
   return (rest < 1.5 ? 1 : rest < 3.5 ? 2 : rest < 7.5 ? 5 : 10) * power;
@@ -90,12 +90,12 @@ export function body(ctx, view, spec, theme, reach, pose) {
   box(ctx, view, -width / 2, -0.04 * reach, width, top + 0.04 * reach, 0.02 * reach, theme.metal, theme['metal-edge']);
 }
 
-function box(ctx, view, x, y, width, height, radius, fill, edge) {
+export function box(ctx, view, x, y, width, height, radius, fill, edge, line = 1) {
   ctx.beginPath();
   ctx.roundRect(x, y, width, height, radius);
   ctx.fillStyle = fill;
   ctx.fill();
-  stroke(ctx, view, edge, 1);
+  stroke(ctx, view, edge, line);
 }
 
 function trolley(ctx, view, t, theme, reach, pose) {

@@ -1,46 +1,29 @@
 // Side view of the test stand: an element hangs from a beam, with a load at its lower end. Lengths, the
 // diameter of the braid and the turns of its threads are true to scale.
-import { between, open_within } from './samples.js';
-import { pressure_color } from './colors.js';
+import { between } from './samples.js';
+import { Scene } from './scene.js';
 import * as parts from './stand_parts.js';
-import { page_theme } from './theme.js';
-
-const window_seconds = 0.01;  // a valve is lit if it was open at any time within it
 
 // Returns the stand in the form of a machine's scene, for the code that draws both; the
 // stand's element is its only muscle.
 export const as_scene = (stand) => ({
-  drawn_from: stand.drawn_from,
-  muscles: [{ name: stand.element, pressure: stand.pressure, inlet: stand.inlet, exhaust: stand.exhaust }],
+  ...stand, muscles: [{ name: stand.element, pressure: stand.pressure, inlet: stand.inlet, exhaust: stand.exhaust }],
 });
 
-export class StandScene {
-  constructor(canvas, spec, columns, units) {
-    Object.assign(this, { canvas, spec, columns, units });
+export class StandScene extends Scene {
+  constructor(canvas, stand, columns, units) {
+    super(canvas, as_scene(stand), columns, units);
+  }
+
+  refit() {
+    const { spec } = this;
     this.reach = spec.bore > 0 ? 1.8 * spec.stroke : Math.max(spec.longest, spec.most, 1e-3);
     this.start = this.at(spec.length, 0);
     this.pressures = this.pressure_range();
-    this.read_theme();
-    new ResizeObserver(() => this.draw(this.time ?? 0)).observe(canvas);
-  }
-
-  read_theme() {
-    this.theme = page_theme();
   }
 
   at(column, t) {
     return column === null ? NaN : between(this.columns[column], t);
-  }
-
-  pressure_range() {
-    let most = this.units.atmosphere + 1e5;
-    if (this.spec.pressure !== null)
-      for (const v of this.columns[this.spec.pressure].values) if (v > most) most = v;
-    return [this.units.atmosphere, most];
-  }
-
-  has_pressure() {
-    return this.spec.pressure !== null;
   }
 
   note() {
@@ -53,47 +36,40 @@ export class StandScene {
 
   // --- drawing ---
 
-  draw(t) {
-    this.time = t;
-    const { canvas } = this, ratio = window.devicePixelRatio || 1;
-    const width = canvas.clientWidth, height = canvas.clientHeight;
-    if (!width || !height) return;
-    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
-      canvas.width = Math.round(width * ratio);
-      canvas.height = Math.round(height * ratio);
-    }
-    const ctx = canvas.getContext('2d');
-    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-    ctx.clearRect(0, 0, width, height);
-    const v = this.place(width, height);
-    const state = this.state(t);
+  draw_world(ctx, v, t) {
     parts.beam(ctx, v, this.spec.load === 'hanging', this.theme);
     if (this.spec.load !== 'hanging') parts.columns(ctx, v, this.spec.most, this.theme);
-    this.draw_ruler(ctx, v, state);
+    this.draw_ruler(ctx, v, this.state(t));
+  }
+
+  draw_machine(ctx, v, t) {
+    const state = this.state(t);
     parts.feed(ctx, v, this.spec, state, this.theme);
-    if (this.spec.bore > 0) parts.cylinder(ctx, v, this.spec, state, this.theme);
-    else parts.actuators(ctx, v, this.spec, state, this.theme);
+    parts.element(ctx, v, this.spec, state, this.theme);
     this.draw_load(ctx, v, state);
   }
+
+  // The ruler shows the scale, and text the force.
+  draw_scale() {}
+  draw_force() {}
 
   // Returns the values of everything that moves, at t.
   state(t) {
     const { spec } = this;
-    const [low, high] = this.pressures, pressure = this.at(spec.pressure, t);
-    const open = (valve) => valve !== null && open_within(this.columns[valve], t - window_seconds, t);
+    const open = (valve) => valve !== null && this.is_open(valve, t);
     const inlet = open(spec.inlet);
     return {
       length: this.at(spec.length, t), desired: this.at(spec.desired, t), diameter: this.at(spec.diameter, t),
       tension: this.at(spec.tension, t), weight: this.at(spec.weight, t), inlet,
       // A 3-way valve connects the element to the room whenever it does not connect it to the supply.
       exhaust: spec.air === '3-way' ? !inlet : open(spec.exhaust),
-      color: Number.isFinite(pressure) ? pressure_color((pressure - low) / (high - low)) : this.theme.metal,
+      color: this.color_of(spec.pressure, t),
     };
   }
 
   // Returns the transformation from meters to pixels: x from the element's axis, y downwards from its upper
   // end. The element's lower end is at `zero` plus its length.
-  place(width, height) {
+  place(ctx, width, height) {
     const { spec, reach } = this;
     const barrel = spec.bore > 0 ? 1.25 * spec.stroke : 0;
     const deep = barrel + Math.max(spec.most + 0.46 * reach, spec.longest + 0.03 * reach), above = 0.16 * reach;

@@ -1,16 +1,11 @@
 // Shapes of the test stand, in pixels. `v` transforms meters to pixels (stand.js).
 
-const turn = 2 * Math.PI;
+import { box as box_in, round_step } from './shapes.js';
 
-function box(ctx, x, y, width, height, radius, fill, edge, line = 1.25) {
-  ctx.beginPath();
-  ctx.roundRect(x, y, width, height, radius);
-  ctx.fillStyle = fill;
-  ctx.fill();
-  ctx.strokeStyle = edge;
-  ctx.lineWidth = line;
-  ctx.stroke();
-}
+const turn = 2 * Math.PI, pixels = { px: 1 };
+
+const box = (ctx, x, y, width, height, radius, fill, edge, line = 1.25) =>
+  box_in(ctx, pixels, x, y, width, height, radius, fill, edge, line);
 
 function lines(ctx, color, width, ...points) {
   ctx.beginPath();
@@ -71,12 +66,6 @@ export function columns(ctx, v, most, theme) {
     box(ctx, v.x(side * frame * v.reach) - wide / 2, from, wide, to - from, 2, theme.ground, theme['ground-edge'], 1);
   const half = v.px((frame + 0.06) * v.reach);
   box(ctx, v.x(0) - half, to, 2 * half, v.px(0.045 * v.reach), 2, theme.metal, theme['metal-edge']);
-}
-
-// Returns 1, 2 or 5 times a power of ten, close to `size`.
-function round_step(size) {
-  const power = 10 ** Math.floor(Math.log10(size)), rest = size / power;
-  return (rest < 1.5 ? 1 : rest < 3.5 ? 2 : rest < 7.5 ? 5 : 10) * power;
 }
 
 // Draws a ruler from zero length down to `to`; it is thicker between the shortest and the longest length.
@@ -186,8 +175,13 @@ function fitting(ctx, x, y, width, theme) {
   box(ctx, x - width / 2, y - 0.35 * width, width, 0.7 * width, 2, theme.ink, theme.ink);
 }
 
+export function element(ctx, v, spec, state, theme) {
+  if (spec.bore > 0) cylinder(ctx, v, spec, state, theme);
+  else actuators(ctx, v, spec, state, theme);
+}
+
 // Draws `spec.count` actuators side by side between two fittings.
-export function actuators(ctx, v, spec, state, theme) {
+function actuators(ctx, v, spec, state, theme) {
   const length = Math.max(0.02 * v.reach, Math.min(state.length, 1.3 * v.reach));
   const diameter = Number.isFinite(state.diameter) ? state.diameter : 0.02 * v.reach;
   const top = v.y(0), bottom = v.y(length), half = v.px(diameter) / 2, n = spec.count;
@@ -259,7 +253,7 @@ function threads(ctx, x, top, tall, half, taper, turns) {
 }
 
 // Draws a cylinder whose rod is extended by `length` below it. The air on the rod's side retracts it.
-export function cylinder(ctx, v, spec, state, theme) {
+function cylinder(ctx, v, spec, state, theme) {
   const wide = v.px(spec.bore), rod = Math.max(2, v.px(spec.rod)), x = v.x(0);
   const top = v.y(0), bottom = v.y(v.barrel), wall = v.px(0.1 * spec.stroke);
   const piston = bottom - wall - v.px(spec.stroke - state.length), thick = Math.max(5, v.px(0.06 * spec.stroke));
