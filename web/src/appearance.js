@@ -1,5 +1,5 @@
 // Appearance of a page: units, light or dark colors, print. Every page has the same buttons.
-import { by_id, element, set_icon } from './page.js';
+import { button, by_id, on_click, set_icon } from './page.js';
 
 export class Appearance {
   // `on_units` and `on_colors` redraw the page; `on_print(begins)` prepares it for printing (true) or for
@@ -7,7 +7,7 @@ export class Appearance {
   constructor(units, { on_units, on_colors, on_print }) {
     Object.assign(this, { units, on_units, on_colors, on_print });
     this.offer_units();
-    by_id('theme').addEventListener('click', () => this.set_theme(this.is_dark() ? 'light' : 'dark'));
+    on_click('theme', () => this.set_theme(this.is_dark() ? 'light' : 'dark'));
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.recolor());
     addEventListener('beforeprint', () => this.print(true));
     addEventListener('afterprint', () => this.print(false));
@@ -16,11 +16,8 @@ export class Appearance {
 
   // Adds a button for each set of units.
   offer_units() {
-    this.buttons = this.units.table.sets.map(({ name, title, about }) => {
-      const button = element('button', { type: 'button', id: `units-${name}`, title: about }, title);
-      button.addEventListener('click', () => this.set_units(name));
-      return button;
-    });
+    this.buttons = this.units.table.sets.map(({ name, title, about }) =>
+      button({ id: `units-${name}`, title: about }, () => this.set_units(name), title));
     by_id('units').replaceChildren(...this.buttons);
     this.show_units();
   }

@@ -1,5 +1,5 @@
 // List of a run's channels. A reader searches it and drags channels onto a plot or adds them from a menu.
-import { element } from './page.js';
+import { button, element } from './page.js';
 import { menu_button } from './menu.js';
 import { dragged } from './dragging.js';
 
@@ -11,10 +11,8 @@ export class ChannelDrawer {
     Object.assign(this, { root, channels, units, entries_for });
     this.field = element('input', { type: 'search', placeholder: 'Search channels', 'aria-label': 'Search channels' });
     this.field.addEventListener('input', () => this.list());
-    const formula = element('button', { type: 'button', class: 'new-formula' }, 'Formula…');
-    formula.addEventListener('click', on_formula);
     this.rows = element('ul', { class: 'channel-rows' });
-    root.append(element('div', { class: 'search' }, this.field, formula),
+    root.append(element('div', { class: 'search' }, this.field, button({ class: 'new-formula' }, on_formula, 'Formula…')),
       element('p', { class: 'quiet' }, 'Drag a channel onto a plot, or onto the field above the plots for a new one. A plot can also be dragged onto another plot.'), this.rows);
   }
 

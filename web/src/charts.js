@@ -6,7 +6,7 @@ import { pressure_color } from './colors.js';
 import { Enlarged } from './enlarged.js';
 import { frame_of_plot, trace_line } from './frame.js';
 import { menu_button } from './menu.js';
-import { element } from './page.js';
+import { button, element } from './page.js';
 import { picture } from './picture.js';
 import { between, index_at } from './samples.js';
 import { save_entries } from './saving.js';
@@ -105,10 +105,8 @@ class Chart {
       const pressed = String(this.shown.has(c.label));
       const mark = element('span', { class: 'mark' });
       if (kind === 'drawn') mark.innerHTML = sample_of(c);
-      const button = element('button', { type: 'button', class: `line ${kind}${c.bold ? ' bold' : ''}`, 'aria-pressed': pressed },
-        mark, element('span', {}, c.label));
-      button.addEventListener('click', () => this.toggle(c.label, button));
-      return { button, curve: c };
+      return { curve: c, button: button({ class: `line ${kind}${c.bold ? ' bold' : ''}`, 'aria-pressed': pressed },
+        (event, own) => this.toggle(c.label, own), mark, element('span', {}, c.label)) };
     });
     const is_other = (b) => b.curve.style === 'other line', others = this.buttons.filter(is_other);
     this.lines.append(...this.buttons.filter((b) => !is_other(b)).map((b) => b.button));
@@ -127,10 +125,10 @@ class Chart {
     return this.color(curve.color, theme);
   }
 
-  toggle(label, button) {
+  toggle(label, own) {
     const on = !this.shown.delete(label);
     if (on) this.shown.add(label);
-    button.setAttribute('aria-pressed', String(on));
+    own.setAttribute('aria-pressed', String(on));
     this.plot?.redraw(false);
     this.place_dots();
   }

@@ -2,12 +2,12 @@
 import { Charts } from './charts.js';
 import { Machines } from './compare_scene.js';
 import { ComparisonTables, differ, judged_differently } from './compare_tables.js';
-import { Appearance } from './appearance.js';
-import { by_id, element } from './page.js';
+import { button, by_id, chip, on_click, start_page } from './page.js';
 import { Plan } from './plan.js';
 import { Player } from './player.js';
 import { Plots } from './plots.js';
-import { index_at, read_samples } from './samples.js';
+import { finest_clock, ReplayPage } from './replay_page.js';
+import { read_samples } from './samples.js';
 import { line_of, letter_of, RunLegend } from './runs.js';
 import { difference_unit, signed, Units } from './units.js';
 
@@ -24,29 +24,6 @@ function columns_of(panel, columns) {
     of(i) ?? (differences[run] ? sum(columns[panel.columns[0]], differences[run]) : null));
   return { values, differences };
 }
-
-// Player that starts at the first run's start, which an alignment may have moved before 0.
-class SpanPlayer extends Player {
-  constructor([from, to], clock, show) {
-    super(to, clock, show);
-    this.from = this.time = from;
-    this.slider.min = from;
-  }
-
-  place(t) {
-    this.time = Math.min(this.limit, Math.max(this.from, t));
-    this.slider.value = this.time;
-    this.slider.setAttribute('aria-valuetext', `${this.time.toFixed(3)} s`);
-    this.show(this.time);
-  }
-
-  toggle() {
-    if (!this.playing && this.time >= this.limit) this.seek(this.from);
-    this.set_playing(!this.playing);
-  }
-}
-
-const paper_scene = 'width: 560px; height: 320px;';  // size of the drawing in print, independent of the screen
 
 // Returns "+2.500 s ± 0.003 s", with two digits of the uncertainty.
 function with_uncertainty(value, uncertainty, unit) {
@@ -72,8 +49,9 @@ function alignment_words(run, i, fitted) {
     (a.rate_seen ? `; it seems to run ${pace(a.rate_seen, a.rate_seen_uncertainty)}, which is not corrected` : '');
 }
 
-class ComparePage {
+class ComparePage extends ReplayPage {
   constructor(data, samples) {
+    super();
     this.data = data;
     this.units = new Units(data.runs[0].atmosphere);
     this.shown = data.runs.map(() => true);
@@ -83,12 +61,10 @@ class ComparePage {
     this.make_plots(samples);
     this.make_machines(samples);
     this.tables = new ComparisonTables(data, this.units, (channel, t) => this.visit(channel, t));
-    this.appearance = new Appearance(this.units, {
-      on_units: () => this.rebuild(),
-      on_colors: () => this.rebuild(),
-      on_print: (begins) => this.print(begins),
-    });
-    this.controls();
+    on_click('all-channels', () => this.switch_all());
+    on_click('show-differences', () => this.switch_differences());
+    this.controls({ d: () => this.switch_differences(),
+                    ...Object.fromEntries(data.runs.map((r, run) => [run + 1, () => this.toggle_run(run)])) });
     this.seek(this.whole[0]);
   }
 
@@ -104,7 +80,6 @@ class ComparePage {
     const changed = figures.filter((f) => judged_differently(f)).length;
     const several = (count, word) => `${count} ${word}${count === 1 ? ' differs' : 's differ'}`;
     const same = channels.filter((c) => c.differences.every((d) => !d || d.same)).length;
-    const chip = (id, words, kind = '') => element('a', { href: `#${id}`, class: `chip ${kind}` }, words);
     by_id('chips').append(
       chip('figures', `${differing} of ${figures.length} numbers differ`),
       ...(changed ? [chip('figures', `${changed} with another verdict`, 'warn')] : []),
@@ -133,7 +108,7 @@ class ComparePage {
     by_id('plan').hidden = !data.runs.some((r) => r.phases.stretches.some((s) => s.stance));
     this.make_charts(samples);
     this.plots.on_view = () => this.draw_view();
-    this.plots.on_values = (t) => this.show(t);
+    this.plots.on_values = (t) => this.show_values(t);
     document.querySelector('.stage').classList.toggle('without-plots', !specs.length);
     // Runs that were aligned with each other are usually compared by their remaining differences.
     this.shows_differences = data.align === 'event' || data.align === 'correlation';
@@ -147,27 +122,14 @@ class ComparePage {
 
   // Creates the drawing of the machines over each other, and its player.
   make_machines(columns) {
-    const clocks = this.plots.panels.flatMap((p) => p.columns.map((c) => c.time));
-    const clock = clocks.reduce((most, c) => (c.length > most.length ? c : most), new Float64Array());
-    this.player = new SpanPlayer(this.whole, clock, (t) => this.show_time(t));
+    const clock = finest_clock(this.plots.panels.flatMap((p) => p.columns));
+    this.player = new Player(this.whole, clock, (t) => this.show(t));
     this.machines = new Machines(by_id('scene'), this.data.runs, columns, this.units, this.shown);
     document.querySelector('.stage').classList.toggle('without-machines', !this.machines.there);
     by_id('follow').hidden = !this.machines.can_follow();
-    by_id('follow').addEventListener('click', () => this.toggle_follow());
-    if (this.machines.there) by_id('machine-note').textContent = this.machines.note();
-  }
-
-  toggle_follow() {
-    if (this.machines.can_follow()) by_id('follow').setAttribute('aria-pressed', String(this.machines.toggle_follow()));
-  }
-
-  print(begins) {
-    this.player.set_playing(false);
-    this.plots.print(begins);
-    this.charts?.print(begins);
     if (!this.machines.there) return;
-    by_id('scene').style.cssText = begins ? paper_scene : '';
-    this.machines.draw(this.player.time);
+    this.drawing = this.machines;
+    by_id('machine-note').textContent = this.machines.note();
   }
 
   // Creates the chart of the foot paths, or the charts of a test stand.
@@ -206,13 +168,11 @@ class ComparePage {
     by_id('groups').append(...names.map((name) => {
       const shown = name !== 'Other' || names.length === 1;
       this.groups_shown.set(name, shown);
-      const button = element('button', { type: 'button', 'aria-pressed': String(shown) }, name);
-      button.addEventListener('click', () => {
+      return button({ 'aria-pressed': String(shown) }, (event, own) => {
         this.groups_shown.set(name, !this.groups_shown.get(name));
-        button.setAttribute('aria-pressed', String(this.groups_shown.get(name)));
+        own.setAttribute('aria-pressed', String(this.groups_shown.get(name)));
         this.arrange();
-      });
-      return button;
+      }, name);
     }));
   }
 
@@ -263,76 +223,30 @@ class ComparePage {
 
   // --- time ---
 
-  seek(t) {
-    this.player.seek(t);
-  }
-
   // Shows the player's time everywhere.
-  show_time(time) {
+  show(time) {
     this.plots.set_time(time);
     this.plots.keep_in_view(time);
     this.machines?.draw(time);
     by_id('machine-clock').textContent = `${time.toFixed(2)} s`;
-    this.show(this.plots.shown_time());
+    this.show_values(this.plots.shown_time());
   }
 
-  show(t) {
+  show_values(t) {
     this.charts?.set_time(t);
     by_id('clock').textContent = `${t.toFixed(2)} s`;
-  }
-
-  step(by) {
-    const clock = this.plots.panels[0]?.columns[0].time ?? [];
-    const exact = 1e-9, t = this.plots.time;
-    const i = by > 0 ? index_at(clock, t + exact) + by : index_at(clock, t - exact) + 1 + by;
-    if (clock.length) this.seek(clock[Math.min(clock.length - 1, Math.max(0, i))]);
   }
 
   draw_view() {
     this.plan.draw();
     if (this.follows_view) this.charts.set_within(this.plots.view);
-    this.show(this.plots.shown_time());
+    this.show_values(this.plots.shown_time());
   }
 
   rebuild() {
-    this.plots.rebuild();
-    this.charts?.rebuild();
     this.tables.refresh();
-    this.machines.read_theme();
-    this.machines.draw(this.player.time);
+    super.rebuild();
     this.draw_view();
-  }
-
-  controls() {
-    by_id('all-channels').addEventListener('click', () => this.switch_all());
-    by_id('show-differences').addEventListener('click', () => this.switch_differences());
-    by_id('zoom-in').addEventListener('click', () => this.plots.zoom_by(0.5));
-    by_id('zoom-out').addEventListener('click', () => this.plots.zoom_by(2));
-    by_id('zoom-all').addEventListener('click', () => this.plots.zoom_all());
-    document.addEventListener('keydown', (event) => this.key(event));
-  }
-
-  key(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.type === 'search' || event.target.tagName === 'SELECT') return;
-    const by = event.shiftKey ? 10 : 1;
-    const run = Number(event.key) - 1;
-    const does = {
-      ArrowLeft: () => this.step(-by),
-      ArrowRight: () => this.step(by),
-      Home: () => this.seek(this.whole[0]),
-      End: () => this.seek(this.whole[1]),
-      ' ': () => this.player.toggle(),
-      '[': () => this.player.faster(-1),
-      ']': () => this.player.faster(1),
-      f: () => this.toggle_follow(),
-      d: () => this.switch_differences(),
-      '+': () => this.plots.zoom_by(0.5),
-      '-': () => this.plots.zoom_by(2),
-      0: () => this.plots.zoom_all(),
-    }[event.key] ?? (run >= 0 && run < this.data.runs.length ? () => this.toggle_run(run) : null);
-    if (!does) return;
-    event.preventDefault();
-    does();
   }
 }
 
@@ -355,18 +269,8 @@ function specs_of(panel, { values, differences }, columns, runs) {
   };
 }
 
-async function start() {
-  const data = JSON.parse(by_id('run-data').textContent);
-  const samples = by_id('run-samples');
-  const columns = await read_samples(data.samples, samples.textContent);
+start_page(async (data) => {
+  const samples = by_id('run-samples'), columns = await read_samples(data.samples, samples.textContent);
   samples.remove();
-  const page = new ComparePage(data, columns);
-  // Used by scripts that take pictures and by tests.
-  window.sinew = { data, columns, page };
-  document.documentElement.dataset.ready = 'yes';
-}
-
-start().catch((error) => {
-  document.body.prepend(element('p', { class: 'failed', role: 'alert' }, `This page could not be read: ${error.message}`));
-  throw error;
+  return { data, columns, page: new ComparePage(data, columns) };
 });

@@ -138,9 +138,7 @@ export class Machines {
   }
 
   toggle_follow() {
-    this.first.follow = !this.first.follow;
-    this.first.draw(this.first.time ?? 0);
-    return this.first.follow;
+    return this.can_follow() && this.first.toggle_follow();
   }
 
   read_theme() {

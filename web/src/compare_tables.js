@@ -1,5 +1,5 @@
 // Tables of a comparison: numbers of the runs, parameters that differ, and differences of channels.
-import { by_id, element } from './page.js';
+import { button, by_id, element } from './page.js';
 import { letter_of } from './runs.js';
 import { cell, heading, long_cell, searched, table } from './tables.js';
 import { difference_unit, number, signed, unit_of_key, words_of_key } from './units.js';
@@ -30,15 +30,11 @@ function percent(relative, value) {
 }
 
 // Returns a toggle button.
-function toggle_button(words, on_change) {
-  const button = element('button', { type: 'button', 'aria-pressed': 'false' }, words);
-  button.addEventListener('click', () => {
-    const on = button.getAttribute('aria-pressed') !== 'true';
-    button.setAttribute('aria-pressed', String(on));
-    on_change(on);
-  });
-  return button;
-}
+const toggle_button = (words, on_change) => button({ 'aria-pressed': 'false' }, (event, own) => {
+  const on = own.getAttribute('aria-pressed') !== 'true';
+  own.setAttribute('aria-pressed', String(on));
+  on_change(on);
+}, words);
 
 // Returns the list with a search field and buttons above it.
 function with_tools(list, rows, label, buttons) {
@@ -166,11 +162,8 @@ export class ComparisonTables {
     const rms = cell('', 'number'), bias = cell('', 'number'), largest = cell('', 'number'), at = cell('', ''), note = cell(note_of(d), 'quiet');
     const share = cell(d && d.span > 0 && d.rms > 0 && d.meet !== 'held' ? `${number((100 * d.rms) / d.span)} %` : '', 'number');
     const r = cell(d && typeof d.correlation === 'number' && !d.same ? d.correlation.toFixed(4) : '', 'number');
-    if (d && !d.same && d.at_s !== null && d.largest !== 0) {
-      const button = element('button', { type: 'button', class: 'time' }, `${d.at_s.toFixed(3)} s`);
-      button.addEventListener('click', () => this.visit(`${channel.topic} ${channel.field}`, d.at_s));
-      at.append(button);
-    }
+    if (d && !d.same && d.at_s !== null && d.largest !== 0)
+      at.append(button({ class: 'time' }, () => this.visit(`${channel.topic} ${channel.field}`, d.at_s), `${d.at_s.toFixed(3)} s`));
     return { d, rms, bias, largest, all: [rms, share, bias, largest, at, r, note] };
   }
 

@@ -1,17 +1,16 @@
 // Modal dialog with a few fields, closed by its buttons or Escape.
-import { element } from './page.js';
+import { button, element } from './page.js';
 
 // Opens a dialog with the elements `fields`. `does(dialog)` performs the action; it returns an error
 // message, or '' on success.
 export function open_dialog(title, fields, done_words, does) {
   const wrong = element('p', { class: 'wrong', role: 'alert' });
   const done = element('button', { type: 'submit', class: 'done' }, done_words);
-  const cancel = element('button', { type: 'button' }, 'Cancel');
+  const cancel = button({}, () => sheet.close(), 'Cancel');
   const form = element('form', { method: 'dialog' }, element('h3', {}, title), ...fields, wrong,
     element('div', { class: 'buttons' }, cancel, done));
   const sheet = element('dialog', { class: 'sheet no-print', 'aria-label': title }, form);
   const host = document.querySelector('dialog.enlarged[open]') ?? document.body;
-  cancel.addEventListener('click', () => sheet.close());
   sheet.addEventListener('close', () => sheet.remove());
   sheet.addEventListener('keydown', (event) => event.stopPropagation());
   form.addEventListener('submit', (event) => {

@@ -1,5 +1,5 @@
 // Dialog that shows a plot or a chart as large as the window, with its zoom, until Escape or its button.
-import { element, set_icon } from './page.js';
+import { button, element, set_icon } from './page.js';
 
 export class Enlarged {
   constructor() {
@@ -13,18 +13,17 @@ export class Enlarged {
   }
 
   // Returns a button for the heading of a plot, which has root, box, height, plot, build(), set_height()
-// and resize().
+  // and resize().
   button_of(panel) {
-    const button = element('button', { type: 'button', class: 'icon small enlarge no-print' });
-    button.addEventListener('click', () => this.toggle(panel));
-    this.show(button, false);
-    return button;
+    const own = button({ class: 'icon small enlarge no-print' }, () => this.toggle(panel));
+    this.show(own, false);
+    return own;
   }
 
-  show(button, large) {
-    button.setAttribute('aria-label', large ? 'Back into the page' : 'Enlarge');
-    button.title = large ? 'Back into the page (Escape)' : 'Enlarge to the window (Escape to return)';
-    set_icon(button, large ? 'shrink' : 'enlarge');
+  show(own, large) {
+    own.setAttribute('aria-label', large ? 'Back into the page' : 'Enlarge');
+    own.title = large ? 'Back into the page (Escape)' : 'Enlarge to the window (Escape to return)';
+    set_icon(own, large ? 'shrink' : 'enlarge');
   }
 
   toggle(panel) {
@@ -58,8 +57,8 @@ export class Enlarged {
     this.place.replaceWith(panel.root);
     panel.set_height(this.usual);
     panel.resize();
-    const button = panel.root.querySelector('.enlarge');
-    this.show(button, false);
-    button.focus({ preventScroll: true });
+    const own = panel.root.querySelector('.enlarge');
+    this.show(own, false);
+    own.focus({ preventScroll: true });
   }
 }

@@ -3,7 +3,7 @@
 import { Charts } from './charts.js';
 import { errors, further, left_out, percent, unseen } from './fit_evidence.js';
 import { Appearance } from './appearance.js';
-import { by_id, element } from './page.js';
+import { by_id, chip, element, start_page } from './page.js';
 import { cell, heading, show_parameters, table } from './tables.js';
 import { number, Units } from './units.js';
 
@@ -131,23 +131,15 @@ class FitPage {
   }
 
   chips() {
-    const chip = (id, text, kind) => element('a', { href: `#${id}`, class: `chip ${kind}` }, text);
     if (this.parts.length > 1)
       this.parts.forEach((p, i) => {
         p.root.id = `part-${i}`;
-        by_id('chips').append(chip(p.root.id, p.report.subject, ''));
+        by_id('chips').append(chip(p.root.id, p.report.subject));
       });
     const warnings = this.parts.reduce((n, p) => n + p.report.warnings.length, 0);
     if (warnings) by_id('chips').append(chip('parts', `${warnings} warning${warnings > 1 ? 's' : ''}`, 'warn'));
-    if (this.run.parameters.length) by_id('chips').append(chip('parameters', 'Parameters', ''));
+    if (this.run.parameters.length) by_id('chips').append(chip('parameters', 'Parameters'));
   }
 }
 
-try {
-  const run = JSON.parse(by_id('run-data').textContent);
-  window.sinew = { run, page: new FitPage(run), number };  // for scripts that take pictures, and for tests
-  document.documentElement.dataset.ready = 'yes';
-} catch (error) {
-  document.body.prepend(element('p', { class: 'failed', role: 'alert' }, `This page could not be read: ${error.message}`));
-  throw error;
-}
+start_page((run) => ({ run, page: new FitPage(run), number }));

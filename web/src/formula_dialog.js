@@ -1,6 +1,6 @@
 // Dialog for a formula: it offers the channels and shows errors while the formula is typed.
 import { functions, parse_formula } from './formula.js';
-import { element } from './page.js';
+import { button, element } from './page.js';
 import { open_dialog } from './dialog.js';
 
 function put_in(field, words) {
@@ -21,11 +21,8 @@ function channel_picker(channels, field) {
 }
 
 function function_buttons(field) {
-  return Object.entries(functions).map(([name, { takes, does }]) => {
-    const button = element('button', { type: 'button', title: does }, name);
-    button.addEventListener('click', () => put_in(field, name === 'mean' ? 'mean(, 0.1 s)' : takes > 1 ? `${name}(, )` : `${name}()`));
-    return button;
-  });
+  return Object.entries(functions).map(([name, { takes, does }]) =>
+    button({ title: does }, () => put_in(field, name === 'mean' ? 'mean(, 0.1 s)' : takes > 1 ? `${name}(, )` : `${name}()`), name));
 }
 
 // Calls `does` with { formula, name }; it returns an error message, or '' if it accepts the formula.

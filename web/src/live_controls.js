@@ -1,5 +1,5 @@
 // Controls of a run in progress: pause, speed, gains, desired angles and stiffnesses.
-import { element, set_icon } from './page.js';
+import { button, element, set_icon } from './page.js';
 import { number } from './units.js';
 
 const send_every = 100;  // while a slider is dragged [ms]
@@ -15,8 +15,8 @@ class Control {
     this.slider = element('input', { type: 'range', min: 0, max: 1000, step: 1, 'aria-label': name });
     this.field = element('input', { type: 'number', min: 0, step: 'any', 'aria-label': `${name}, exactly` });
     this.unit = element('span', { class: 'unit' });
-    this.back = element('button', { type: 'button', class: 'icon release', title: `Return to the plan's ${spec.what}`,
-                                    'aria-label': `Release ${name}` }, '↺');
+    this.back = button({ class: 'icon release', title: `Return to the plan's ${spec.what}`, 'aria-label': `Release ${name}` },
+                       () => panel.live.request({ do: 'release', key: spec.key }), '↺');
     this.root = element('div', { class: 'control', 'data-key': spec.key },
       element('span', { class: 'what' }, spec.what), this.slider, this.field, this.unit, this.back);
     this.listen();
@@ -40,7 +40,6 @@ class Control {
       this.show_slider();
       this.send();
     });
-    this.back.addEventListener('click', () => this.panel.live.request({ do: 'release', key: this.spec.key }));
   }
 
   send() {
@@ -88,22 +87,17 @@ export class LiveControls {
   }
 
   make_strip() {
-    const button = (id, words, does, title) => {
-      const out = element('button', { type: 'button', id, title }, words);
-      out.addEventListener('click', does);
-      return out;
-    };
-    this.pause = button('run-pause', '', () => this.live.request({ do: this.paused ? 'resume' : 'pause' }), 'Pause or resume the run itself');
+    this.pause = button({ id: 'run-pause', title: 'Pause or resume the run itself' }, () => this.live.request({ do: this.paused ? 'resume' : 'pause' }), '');
     this.pace = element('select', { id: 'run-pace', 'aria-label': 'Speed of the run' },
       ...paces.map(([value, words]) => element('option', { value }, words)));
     this.pace.addEventListener('change', () => this.live.request({ do: 'pace', value: Number(this.pace.value) }));
-    this.tail = button('follow-run', 'Follow the run', () => this.live.follow(true), 'Show the current time of the run');
-    this.release = button('release-all', 'Release all', () => this.live.request({ do: 'release all' }), 'Return to all values of the plan');
+    this.tail = button({ id: 'follow-run', title: 'Show the current time of the run' }, () => this.live.follow(true), 'Follow the run');
+    this.release = button({ id: 'release-all', title: 'Return to all values of the plan' }, () => this.live.request({ do: 'release all' }), 'Release all');
     this.lamp = element('span', { class: 'lamp' });
     this.word = element('strong', {});
     this.clock = element('span', { class: 'run-clock' });
     this.note = element('span', { class: 'run-note', role: 'status' });
-    this.stop = button('stop-machine', 'Stop the machine', () => this.stop_machine(), 'Close the valves and vent the air immediately (space)');
+    this.stop = button({ id: 'stop-machine', title: 'Close the valves and vent the air immediately (space)' }, () => this.stop_machine(), 'Stop the machine');
     this.stop.hidden = true;
     this.speed = element('label', {}, element('span', { class: 'quiet' }, 'Speed of the run '), this.pace);
     return element('section', { class: 'live-strip no-print', id: 'live', 'aria-label': 'The run' },

@@ -2,12 +2,12 @@
 import { pressure_gradient } from './colors.js';
 import { Charts } from './charts.js';
 import { Live } from './live.js';
-import { Appearance } from './appearance.js';
 import { Marks } from './marks.js';
-import { by_id, element } from './page.js';
+import { by_id, chip, element, start_page } from './page.js';
 import { Player } from './player.js';
 import { PlotTools } from './plot_tools.js';
 import { Plots } from './plots.js';
+import { finest_clock, ReplayPage } from './replay_page.js';
 import { held, index_at, open_within, read_samples } from './samples.js';
 import { Scene } from './scene.js';
 import { as_scene, StandScene } from './stand.js';
@@ -17,12 +17,10 @@ import {
 import { page_theme } from './theme.js';
 import { short_number, Units } from './units.js';
 
-const paper_scene = 'width: 640px; height: 330px;';  // size of the drawing in print, independent of the screen
-
-class Page {
+class Page extends ReplayPage {
   constructor(run, columns) {
-    this.run = run;
-    this.columns = columns;
+    super();
+    Object.assign(this, { run, columns, whole: [0, run.duration] });
     this.units = new Units(run.atmosphere);
     this.head();
     this.plots = new Plots(by_id('panels'), run, columns, this.units, (t) => this.seek(t));
@@ -31,16 +29,16 @@ class Page {
     this.marks = new Marks(by_id('changes'), run, this.plots, this.units, (t) => this.seek(t));
     this.charts = run.charts?.length ? new Charts(by_id('charts'), run.charts, columns, this.units, run.name || run.title) : null;
     this.replay();
-    this.player = new Player(run.duration, this.clock(), (t) => this.show(t));
+    this.player = new Player(this.whole, this.clock(), (t) => this.show(t));
     this.tables();
-    this.controls();
+    this.controls({});
+    new ResizeObserver(() => this.draw_phases()).observe(by_id('phases'));
     this.seek(run.phases.stretches[0]?.from ?? 0);
   }
 
   // Returns the times of the channel with the most samples; the player steps through them.
   clock() {
-    const clocks = this.run.panels.flatMap((p) => p.lines.map((l) => this.columns[l.column].time));
-    return clocks.reduce((most, c) => (c.length > most.length ? c : most), new Float64Array());
+    return finest_clock(this.run.panels.flatMap((p) => p.lines.map((l) => this.columns[l.column])));
   }
 
   head() {
@@ -54,7 +52,6 @@ class Page {
 
   chips() {
     const { run } = this;
-    const chip = (id, words, kind) => element('a', { href: `#${id}`, class: `chip ${kind}` }, words);
     const out = [];
     if (run.verdicts.length) {
       const n = count_verdicts(run.verdicts);
@@ -64,7 +61,7 @@ class Page {
       out.push(chip('warnings', `${run.warnings.length} warning${run.warnings.length > 1 ? 's' : ''}`, 'warn'));
     const faults = run.faults?.length ?? 0;
     if (faults) out.push(chip('faults', `${faults} fault${faults > 1 ? 's' : ''}`, 'bad'));
-    out.push(chip('numbers', 'Numbers', ''), chip('parameters', 'Parameters', ''));
+    out.push(chip('numbers', 'Numbers'), chip('parameters', 'Parameters'));
     by_id('chips').append(...out);
   }
 
@@ -91,7 +88,7 @@ class Page {
       document.querySelector('.stage').classList.add('without-scene');
       return;
     }
-    this.scene = run.stand ? new StandScene(by_id('scene'), run.stand, this.columns, this.units)
+    this.drawing = this.scene = run.stand ? new StandScene(by_id('scene'), run.stand, this.columns, this.units)
       : new Scene(by_id('scene'), run.scene, this.columns, this.units, run.duration);
     by_id('follow').hidden = !run.scene.track;
     this.muscles = run.scene.muscles.map((m) => this.muscle_card(m));
@@ -164,11 +161,6 @@ class Page {
     }
   }
 
-  seek(t) {
-    this.player.seek(t);
-    this.plots.keep_in_view(this.player.time);
-  }
-
   phase_at(t) {
     const found = this.run.phases.stretches.find((s) => t >= s.from && t < s.to);
     if (!found) return '';
@@ -203,98 +195,20 @@ class Page {
     }
   }
 
-  // --- controls ---
-
-  controls() {
-    this.appearance = new Appearance(this.units, {
-      on_units: () => this.change_units(),
-      on_colors: () => this.recolor(),
-      on_print: (begins) => this.print(begins),
-    });
-    by_id('follow').addEventListener('click', () => this.toggle_follow());
-    by_id('zoom-in').addEventListener('click', () => this.plots.zoom_by(0.5));
-    by_id('zoom-out').addEventListener('click', () => this.plots.zoom_by(2));
-    by_id('zoom-all').addEventListener('click', () => this.plots.zoom_all());
-    document.addEventListener('keydown', (event) => this.key(event));
-    new ResizeObserver(() => this.draw_phases()).observe(by_id('phases'));
-  }
-
-  key(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const { target } = event;
-    if (['search', 'text', 'number', 'checkbox'].includes(target.type) || ['SELECT', 'TEXTAREA'].includes(target.tagName)) return;
-    if (target.closest?.('.control, .panel-tools, .channels')) return;
-    const big = event.shiftKey ? 10 : 1;
-    const does = {
-      ' ': () => this.player.toggle(),
-      ArrowLeft: () => this.step(-1, big),
-      ArrowRight: () => this.step(1, big),
-      Home: () => this.seek(0),
-      End: () => this.seek(this.run.duration),
-      f: () => this.toggle_follow(),
-      '+': () => this.plots.zoom_by(0.5),
-      '-': () => this.plots.zoom_by(2),
-      0: () => this.plots.zoom_all(),
-      '[': () => this.player.faster(-1),
-      ']': () => this.player.faster(1),
-    }[event.key];
-    if (!does) return;
-    event.preventDefault();
-    does();
-  }
-
-  step(by, times) {
-    for (let i = 0; i < times; ++i) this.player.step(by);
-    this.plots.keep_in_view(this.player.time);
-  }
-
-  toggle_follow() {
-    if (!this.scene) return;
-    this.scene.follow = !this.scene.follow;
-    by_id('follow').setAttribute('aria-pressed', String(this.scene.follow));
-    this.scene.draw(this.player.time);
-  }
-
-  change_units() {
+  rebuild() {
     this.marks.refresh();
-    this.plots.rebuild();
-    this.charts?.rebuild();
     this.numbers.refresh();
     if (this.scene) this.legend();
-    this.show(this.player.time);
-  }
-
-  recolor() {
-    this.scene?.read_theme();
-    this.plots.rebuild();
-    this.charts?.rebuild();
+    super.rebuild();
     this.draw_phases();
-    this.show(this.player.time);
-  }
-
-  // Draws all plots for printing.
-  print(begins) {
-    this.player.set_playing(false);
-    this.plots.print(begins);
-    this.charts?.print(begins);
-    if (this.scene) by_id('scene').style.cssText = begins ? paper_scene : '';
   }
 }
 
-async function start() {
-  const run = JSON.parse(by_id('run-data').textContent);
-  const samples = by_id('run-samples');
-  const live = run.live ? new Live(run) : null;
+start_page(async (run) => {
+  const samples = by_id('run-samples'), live = run.live ? new Live(run) : null;
   const columns = live ? await live.connect() : await read_samples(run.samples, samples.textContent);
   samples.remove();
   const page = new Page(run, columns);
   live?.attach(page);
-  // Used by scripts that take pictures and by tests.
-  window.sinew = { run, columns, page, index_at, live };
-  document.documentElement.dataset.ready = 'yes';
-}
-
-start().catch((error) => {
-  document.body.prepend(element('p', { class: 'failed', role: 'alert' }, `This page could not be read: ${error.message}`));
-  throw error;
+  return { run, columns, page, index_at, live };
 });

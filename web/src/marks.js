@@ -2,6 +2,7 @@
 // on the time axis of every plot. A slider that is dragged sends many values; those that follow each other
 // within a moment are one move.
 import { element } from './page.js';
+import { span_text, time_button } from './tables.js';
 
 const moment = 1;      // between values of one move [s]
 const most_shown = 60; // handles of one plot
@@ -45,11 +46,8 @@ export class Marks {
   refresh() {
     this.moves = moves_of(this.run.changes ?? []);
     this.root.hidden = !this.moves.length;
-    const most = 12, shown = this.moves.slice(0, most).map((move) => {
-      const button = element('button', { type: 'button', class: 'time' }, `${this.words(move)}, ${this.when(move)}`);
-      button.addEventListener('click', () => this.seek(move.from));
-      return button;
-    });
+    const most = 12, shown = this.moves.slice(0, most).map((move) =>
+      time_button(move.from, move.to, this.seek, `${this.words(move)}, `));
     this.root.replaceChildren(element('span', { class: 'key' }, 'set during the run'), ...shown,
       this.moves.length > most ? element('span', {}, `and ${this.moves.length - most} more`) : '');
     for (const panel of this.plots.panels) panel.marked = null;
@@ -64,8 +62,6 @@ export class Marks {
     return move.value === null ? `${of}: back to the plan's value`
       : `${of}: ${move.before === null ? '' : `${this.text(move.before, move.unit)} → `}${this.text(move.value, move.unit)}`;
   }
-
-  when = ({ from, to }) => (to > from ? `${from.toFixed(2)}–${to.toFixed(2)} s` : `${from.toFixed(2)} s`);
 
   in_view() {
     const [from, to] = this.plots.view;
@@ -98,7 +94,7 @@ export class Marks {
     panel.plot.over.querySelectorAll('.mark-handle, .no-marks').forEach((m) => m.remove());
     const moves = this.in_view().slice(0, most_shown);
     const handles = moves.map((move) => {
-      const handle = element('div', { class: 'mark-handle' }, element('i', {}), element('span', {}, `${this.words(move)} at ${this.when(move)}`));
+      const handle = element('div', { class: 'mark-handle' }, element('i', {}), element('span', {}, `${this.words(move)} at ${span_text(move.from, move.to)}`));
       const x = panel.plot.valToPos(move.from, 'x');
       handle.style.left = `${(x - reach).toFixed(1)}px`;
       handle.classList.toggle('to-left', x > panel.plot.over.clientWidth / 2);

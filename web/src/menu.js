@@ -1,15 +1,15 @@
 // Menu of a button. Arrow keys move through it; Escape and a click elsewhere close it.
-import { element } from './page.js';
+import { button, element } from './page.js';
 
 let open = null;
 
 export function close_menu(back = false) {
   if (!open) return;
-  const { root, button } = open;
+  const { root, from } = open;
   open = null;
   root.remove();
-  button.setAttribute('aria-expanded', 'false');
-  if (back) button.focus();
+  from.setAttribute('aria-expanded', 'false');
+  if (back) from.focus();
 }
 
 function key(event) {
@@ -25,38 +25,33 @@ function key(event) {
 
 // `entries`: [words, does] for an item, or a string for a heading. A second click on the button closes
 // the menu.
-export function open_menu(button, entries) {
-  const again = open?.button === button;
+export function open_menu(from, entries) {
+  const again = open?.from === from;
   close_menu();
   if (again) return;
   const items = entries.filter(Boolean).map((entry) => {
     if (typeof entry === 'string') return element('p', { class: 'quiet' }, entry);
-    const item = element('button', { type: 'button', role: 'menuitem' }, entry[0]);
-    item.addEventListener('click', (event) => {
+    return button({ role: 'menuitem' }, (event) => {
       event.stopPropagation();
       close_menu(true);
       entry[1]();
-    });
-    return item;
+    }, entry[0]);
   });
   const root = element('div', { class: 'menu no-print', role: 'menu' }, ...items);
   root.addEventListener('keydown', key);
-  button.setAttribute('aria-expanded', 'true');
-  button.after(root);
-  open = { root, button };
+  from.setAttribute('aria-expanded', 'true');
+  from.after(root);
+  open = { root, from };
   // Keeps the menu within the window.
   if (root.getBoundingClientRect().left < 4) root.classList.add('to-right');
   root.querySelector('button')?.focus();
 }
 
 export function menu_button(words, label, entries) {
-  const button = element('button', { type: 'button', class: 'icon small no-print', 'aria-label': label, title: label,
-                                     'aria-haspopup': 'menu', 'aria-expanded': 'false' }, words);
-  button.addEventListener('click', (event) => {
+  return button({ class: 'icon small no-print', 'aria-label': label, title: label, 'aria-haspopup': 'menu', 'aria-expanded': 'false' }, (event, own) => {
     event.stopPropagation();
-    open_menu(button, entries());
-  });
-  return button;
+    open_menu(own, entries());
+  }, words);
 }
 
 document.addEventListener('click', (event) => open && !open.root.contains(event.target) && close_menu());

@@ -10,6 +10,30 @@ export function element(tag, attributes, ...children) {
 
 export const by_id = (id) => document.getElementById(id);
 
+// Returns a button that calls `does` with the event and the button.
+export function button(attributes, does, ...children) {
+  const out = element('button', { type: 'button', ...attributes }, ...children);
+  out.addEventListener('click', (event) => does(event, out));
+  return out;
+}
+
+// Calls `does` when the element with this id is clicked.
+export const on_click = (id, does) => by_id(id).addEventListener('click', does);
+
+// Returns a link to a section of the page.
+export const chip = (id, words, kind = '') => element('a', { href: `#${id}`, class: `chip ${kind}` }, words);
+
+// Starts a page: `make` returns what scripts that take pictures and tests use as window.sinew.
+export async function start_page(make) {
+  try {
+    window.sinew = await make(JSON.parse(by_id('run-data').textContent));
+    document.documentElement.dataset.ready = 'yes';
+  } catch (error) {
+    document.body.prepend(element('p', { class: 'failed', role: 'alert' }, `This page could not be read: ${error.message}`));
+    throw error;
+  }
+}
+
 const paths = {
   play: 'M7 4.5v15l12-7.5z',
   pause: 'M7 5h3.6v14H7zM13.4 5H17v14h-3.6z',

@@ -3,7 +3,7 @@
 import uPlot from 'uplot';
 import { range_of, spoiling_start, upright_ticks } from './axis.js';
 import { frame_of_plot, trace_line } from './frame.js';
-import { element } from './page.js';
+import { button, element } from './page.js';
 import { picture } from './picture.js';
 import { held } from './samples.js';
 import { Slices } from './slices.js';
@@ -71,13 +71,8 @@ export class Panel {
 
   readout(line, i) {
     const value = element('span', { class: 'value' });
-    const button = element(
-      'button',
-      { type: 'button', class: `line ${line.style}`, 'aria-pressed': String(this.shown[i]), title: line.topic },
-      element('span', { class: 'mark' }), element('span', {}, line.label), value,
-    );
-    button.addEventListener('click', () => this.toggle(i));
-    return { button, value };
+    return { value, button: button({ class: `line ${line.style}`, 'aria-pressed': String(this.shown[i]), title: line.topic }, () => this.toggle(i),
+      element('span', { class: 'mark' }), element('span', {}, line.label), value) };
   }
 
   toggle(i) {

@@ -1,18 +1,18 @@
 // Player of the replay: play, pause, seek, step and speed, by buttons, slider and keyboard.
-import { by_id, set_icon } from './page.js';
+import { by_id, on_click, set_icon } from './page.js';
 import { index_at } from './samples.js';
 
 export class Player {
-  // `clock`: times through which it steps; `show(t)` draws a time.
-  constructor(duration, clock, show) {
-    Object.assign(this, { duration, clock, show, time: 0, playing: false, speed: 1 });
-    this.limit = duration;  // latest time with data; it increases during a run in progress
+  // `from`, `to`: first and last time. `clock`: times through which it steps; `show(t)` draws a time.
+  constructor([from, to], clock, show) {
+    Object.assign(this, { from, clock, show, time: from, playing: false, speed: 1 });
+    this.limit = to;  // latest time with data; it increases during a run in progress
     this.slider = by_id('seek');
-    this.slider.max = duration;
+    Object.assign(this.slider, { min: from, max: to });
     this.slider.addEventListener('input', () => this.seek(Number(this.slider.value)));
-    by_id('play').addEventListener('click', () => this.toggle());
-    by_id('back').addEventListener('click', () => this.step(-1));
-    by_id('forth').addEventListener('click', () => this.step(1));
+    on_click('play', () => this.toggle());
+    on_click('back', () => this.step(-1));
+    on_click('forth', () => this.step(1));
     this.speeds = by_id('speed');
     this.speeds.addEventListener('change', () => (this.speed = Number(this.speeds.value)));
     set_icon(by_id('back'), 'back');
@@ -26,7 +26,7 @@ export class Player {
   }
 
   place(t) {
-    this.time = Math.min(this.limit, Math.max(0, t));
+    this.time = Math.min(this.limit, Math.max(this.from, t));
     this.slider.value = this.time;
     this.slider.setAttribute('aria-valuetext', `${this.time.toFixed(3)} s`);
     this.show(this.time);
@@ -42,7 +42,7 @@ export class Player {
   }
 
   toggle() {
-    if (!this.playing && this.time >= this.limit) this.seek(0);
+    if (!this.playing && this.time >= this.limit) this.seek(this.from);
     this.set_playing(!this.playing);
   }
 

@@ -6,7 +6,7 @@ import { Enlarged } from './enlarged.js';
 import { open_formula_dialog } from './formula_dialog.js';
 import { menu_button } from './menu.js';
 import { own_group, OwnPlots } from './own_plots.js';
-import { by_id, element } from './page.js';
+import { button, by_id, element, on_click } from './page.js';
 import { save_entries } from './saving.js';
 import { open_dialog, show_message } from './dialog.js';
 
@@ -30,12 +30,11 @@ export class PlotTools {
   }
 
   tools() {
-    const tool = (id, does) => by_id(id).addEventListener('click', does);
-    tool('show-channels', () => {
+    on_click('show-channels', () => {
       this.drawer.toggle();
       by_id('show-channels').setAttribute('aria-pressed', String(!by_id('channels').hidden));
     });
-    tool('reset-layout', () => {
+    on_click('reset-layout', () => {
       this.own.reset();
       for (const [group, on] of this.usual_groups) this.plots.show_group(group, on);
       this.refresh();
@@ -67,15 +66,13 @@ export class PlotTools {
     this.grouped = of;
     by_id('groups').replaceChildren(...names.map((name) => {
       const on = plots.groups_shown.get(name) ?? true;
-      const button = element('button', { type: 'button', 'aria-pressed': String(on) }, name);
-      button.addEventListener('click', () => {
-        const next = button.getAttribute('aria-pressed') !== 'true';
+      return button({ 'aria-pressed': String(on) }, (event, group) => {
+        const next = group.getAttribute('aria-pressed') !== 'true';
         plots.show_group(name, next);
-        button.setAttribute('aria-pressed', String(next));
+        group.setAttribute('aria-pressed', String(next));
         this.grouped = null;
         own.store_group(name, next, name === own_group ? undefined : this.usual_groups.get(name));
-      });
-      return button;
+      }, name);
     }));
   }
 

@@ -1,6 +1,6 @@
 // List of the runs in a folder, served by `sinew view`: search runs, open one, compare several.
 import { Appearance } from './appearance.js';
-import { by_id, element } from './page.js';
+import { by_id, element, on_click, start_page } from './page.js';
 import { Units } from './units.js';
 
 class RunList {
@@ -14,8 +14,8 @@ class RunList {
     this.items = this.runs.map((run) => this.item(run));
     by_id('list').append(...this.items.map((i) => i.root));
     by_id('search').addEventListener('input', () => this.search());
-    by_id('compare').addEventListener('click', () => (location.href = `compare/${this.ticked.join(',')}`));
-    by_id('clear').addEventListener('click', () => this.clear());
+    on_click('compare', () => (location.href = `compare/${this.ticked.join(',')}`));
+    on_click('clear', () => this.clear());
     new Appearance(new Units(0), { on_units() {}, on_colors() {}, on_print() {} });
     this.show_ticked();
   }
@@ -72,5 +72,4 @@ class RunList {
   }
 }
 
-window.sinew = { list: new RunList(JSON.parse(by_id('run-data').textContent)) };
-document.documentElement.dataset.ready = 'yes';
+start_page((runs) => ({ list: new RunList(runs) }));

@@ -1,5 +1,5 @@
 // Letter, color and dashes of each run of a comparison.
-import { element } from './page.js';
+import { button, element } from './page.js';
 
 // Dashes in pixels of the screen. The first run's line is full and wide, so that a line over it is visible.
 const dashes = [[], [7, 4], [2, 3], [11, 3, 2, 3], [4, 2], [14, 5], [6, 2, 1, 2], [1, 2]];
@@ -27,12 +27,9 @@ export class RunLegend {
   constructor(root, runs, on_toggle) {
     this.buttons = runs.map((run, i) => {
       const moved = run.shift_s ? `, moved by ${(-run.shift_s).toFixed(3).replace('-', '−')} s` : '';
-      const button = element('button', { type: 'button', class: 'run', 'aria-pressed': 'true',
-                                         title: `${run.title}; show or hide (${i + 1})` },
+      return button({ class: 'run', 'aria-pressed': 'true', title: `${run.title}; show or hide (${i + 1})` }, () => on_toggle(i),
         swatch(i), element('b', {}, letter_of(i)), element('span', {}, run.label),
         element('span', { class: 'quiet' }, `${(run.last_s - run.first_s).toFixed(2)} s${moved}`));
-      button.addEventListener('click', () => on_toggle(i));
-      return button;
     });
     root.append(...this.buttons);
   }

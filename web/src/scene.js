@@ -31,6 +31,11 @@ export class Scene {
     this.theme = page_theme();
   }
 
+  // Returns whether the view follows the machine from now on.
+  toggle_follow() {
+    return (this.follow = !this.follow);
+  }
+
   // --- extent of the drawing ---
 
   pose(frame, t) {

@@ -2,7 +2,7 @@
 // parameters, a number over two parameters, and every row with the command that runs it again.
 import { pressure_gradient } from './colors.js';
 import { Appearance } from './appearance.js';
-import { by_id, element } from './page.js';
+import { button, by_id, element, on_click, start_page } from './page.js';
 import { value_text, view_colors } from './study_chart.js';
 import { Filter, StudyData } from './study_data.js';
 import { Parallel } from './study_parallel.js';
@@ -73,10 +73,8 @@ class StudyPage {
 
   study_button(s) {
     const mark = element('span', { class: `study-mark ${s.study ? 'triangle' : 'disc'}` });
-    const button = element('button', { type: 'button', class: 'run', 'aria-pressed': 'true', title: `show or hide (${s.study + 1})` },
+    return button({ class: 'run', 'aria-pressed': 'true', title: `show or hide (${s.study + 1})` }, () => this.toggle_study(s.study),
       mark, element('b', {}, s.letter), element('span', {}, s.file));
-    button.addEventListener('click', () => this.toggle_study(s.study));
-    return button;
   }
 
   toggle_study(study) {
@@ -117,9 +115,7 @@ class StudyPage {
     by_id('ranges').replaceChildren(...[...filter.ranges].map(([column, [from, to]]) => {
       const words = column.number ? `${value_text(column, from)} – ${value_text(column, to)}`
         : column.words.filter((_, i) => i >= from && i <= to).join(', ') || 'none';
-      const button = element('button', { type: 'button', class: 'chip', title: `${column.heading}; remove this range` }, `${column.key}: ${words} ✕`);
-      button.addEventListener('click', () => this.set_range(column, null));
-      return button;
+      return button({ class: 'chip', title: `${column.heading}; remove this range` }, () => this.set_range(column, null), `${column.key}: ${words} ✕`);
     }));
     const ramp = this.color_column?.varies ? this.color_column : null;
     by_id('ramp').hidden = !ramp;
@@ -191,11 +187,11 @@ class StudyPage {
       this.filter.words = by_id('words').value.toLowerCase().split(/\s+/).filter(Boolean);
       this.filtered();
     });
-    by_id('feasible').addEventListener('click', () => {
+    on_click('feasible', () => {
       this.filter.only_feasible = !this.filter.only_feasible;
       this.filtered();
     });
-    by_id('clear').addEventListener('click', () => this.clear());
+    on_click('clear', () => this.clear());
     addEventListener('keydown', (e) => this.key(e));
   }
 
@@ -211,11 +207,4 @@ class StudyPage {
   }
 }
 
-try {
-  const run = JSON.parse(by_id('run-data').textContent);
-  window.sinew = { run, page: new StudyPage(run) };  // used by scripts that take pictures and by tests
-  document.documentElement.dataset.ready = 'yes';
-} catch (error) {
-  document.body.prepend(element('p', { class: 'failed', role: 'alert' }, `This page could not be read: ${error.message}`));
-  throw error;
-}
+start_page((run) => ({ run, page: new StudyPage(run) }));

@@ -1,6 +1,6 @@
 // Parallel coordinates: an axis for each column, a line for each row. A range drawn on an axis filters
 // every view.
-import { element } from './page.js';
+import { button, element } from './page.js';
 import { axis_of, coloring, fresh_context, outlined, picture_menu, still_drawn, value_text } from './study_chart.js';
 import { number } from './units.js';
 
@@ -44,15 +44,14 @@ export class Parallel {
   arrange() {
     const { page } = this;
     this.toggles.replaceChildren(...page.columns.filter((c) => c.varies).map((c) => {
-      const button = element('button', { type: 'button', 'aria-pressed': String(this.shown.has(c)), title: c.heading }, name_of(c));
-      button.addEventListener('click', () => {
+      const toggle = () => {
         this.chosen_by_hand = true;
         if (!this.shown.delete(c)) this.shown.add(c);
         else if (this.page.filter.ranges.has(c)) this.page.set_range(c, null);
         this.arrange();
         page.redraw();
-      });
-      return button;
+      };
+      return button({ 'aria-pressed': String(this.shown.has(c)), title: c.heading }, toggle, name_of(c));
     }));
     this.columns = page.columns.filter((c) => this.shown.has(c));
     this.inner.style.minWidth = `${narrowest * this.columns.length}px`;

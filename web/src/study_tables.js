@@ -1,5 +1,5 @@
 // Influence of the parameters as bars, the chosen row with its command, and the table of rows.
-import { element } from './page.js';
+import { button, element } from './page.js';
 import { value_text } from './study_chart.js';
 import { variance_share } from './study_math.js';
 import { chooser } from './study_views.js';
@@ -86,11 +86,7 @@ export class ChosenRow {
   }
 
   steps() {
-    const step = (words, label, by) => {
-      const button = element('button', { type: 'button', class: 'icon', 'aria-label': label, title: label }, words);
-      button.addEventListener('click', () => this.page.step(by));
-      return button;
-    };
+    const step = (words, label, by) => button({ class: 'icon', 'aria-label': label, title: label }, () => this.page.step(by), words);
     return element('div', { class: 'steps no-print' }, step('←', 'Previous row (←)', -1), step('→', 'Next row (→)', 1));
   }
 
@@ -119,10 +115,9 @@ export class ChosenRow {
 
   buttons(study, command) {
     const { page } = this;
-    const copy = element('button', { type: 'button', id: 'copy' }, 'Copy');
-    copy.addEventListener('click', async () => {
+    const copy = button({ id: 'copy' }, async () => {
       copy.textContent = (await copied(command, this.root.querySelector('.command'))) ? 'Copied' : 'Selected: press Ctrl-C';
-    });
+    }, 'Copy');
     const run = page.run.served && page.data.ok[page.chosen] !== undefined
       ? element('a', { id: 'run-it', class: 'button', href: `${study.path}run/${page.data.number[page.chosen]}`, target: '_blank', rel: 'noopener' }, 'Run and show')
       : null;
@@ -152,11 +147,7 @@ export class RowTable {
     this.head = element('thead', {});
     this.body = element('tbody', {});
     this.count = element('span', { class: 'quiet', 'aria-live': 'polite' });
-    const turn = (words, label, by) => {
-      const button = element('button', { type: 'button', 'aria-label': label }, words);
-      button.addEventListener('click', () => this.turn(by));
-      return button;
-    };
+    const turn = (words, label, by) => button({ 'aria-label': label }, () => this.turn(by), words);
     this.turns = element('div', { class: 'turns no-print' }, turn('‹', 'Previous rows', -1), this.count, turn('›', 'Next rows', 1));
     this.root = element('section', { class: 'block', id: 'rows' },
       element('header', {}, element('h2', {}, 'Rows'), this.turns),
@@ -166,9 +157,8 @@ export class RowTable {
   arrange() {
     const heading = (words, column, title) => {
       const sorted = this.by === column;
-      const button = element('button', { type: 'button', title }, words, sorted ? (this.down ? ' ↓' : ' ↑') : '');
-      button.addEventListener('click', () => this.sort(column));
-      return element('th', { scope: 'col', 'aria-sort': sorted ? (this.down ? 'descending' : 'ascending') : null, class: !column || column.number ? 'number' : null }, button);
+      return element('th', { scope: 'col', 'aria-sort': sorted ? (this.down ? 'descending' : 'ascending') : null, class: !column || column.number ? 'number' : null },
+        button({ title }, () => this.sort(column), words, sorted ? (this.down ? ' ↓' : ' ↑') : ''));
     };
     this.head.replaceChildren(element('tr', {}, heading('row', null, 'The order of rows'), ...this.page.columns.map((c) => heading(c.heading, c, `Sort by ${c.heading}`))));
   }

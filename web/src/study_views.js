@@ -1,7 +1,7 @@
 // Views of a study: history, scatter and surface. Each is a canvas with its choices above it.
 import { ticks } from './axis.js';
 import { trace_disc } from './chart_shapes.js';
-import { element } from './page.js';
+import { button, element } from './page.js';
 import { axis_of, Chart, coloring, color_steps, picture_menu, value_text } from './study_chart.js';
 import { best_so_far, level_lines, pareto_front, surface } from './study_math.js';
 import { number, tick_text } from './units.js';
@@ -20,14 +20,12 @@ export function chooser(label, columns, chosen, on_change, more = []) {
 
 // Returns a button that selects, for all views, whether less or more of a column is better.
 export function direction(page, column) {
-  const words = () => (column.less ? '↓ less is better' : '↑ more is better');
-  const button = element('button', { type: 'button', class: 'direction', title: `of ${column.heading}` }, words());
-  button.addEventListener('click', () => {
+  const turn = () => {
     column.less = !column.less;
     page.redraw();
     page.arrange_choices();
-  });
-  return button;
+  };
+  return button({ class: 'direction', title: `of ${column.heading}` }, turn, column.less ? '↓ less is better' : '↑ more is better');
 }
 
 // View with heading, choices, canvas and a sentence of explanation.

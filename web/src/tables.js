@@ -1,6 +1,6 @@
 // Tables of the page of a run: results compared with reported values, all numbers, warnings, and all
 // parameters.
-import { by_id, element } from './page.js';
+import { button, by_id, element } from './page.js';
 import { number, unit_of_key, words_of_key } from './units.js';
 
 export function table(label, heads, rows) {
@@ -47,18 +47,17 @@ export function show_results(run) {
     table('Results', ['', 'reported', 'this run', 'accepted', 'class', '', 'source'], rows));
 }
 
+// Returns a button with a span of time that moves the time to its start.
+export const time_button = (from, to, seek, words = '') => button({ class: 'time' }, () => seek(from), words + span_text(from, to));
+export const span_text = (from, to) => (to > from ? `${from.toFixed(2)}–${to.toFixed(2)} s` : `${from.toFixed(2)} s`);
+
 // --- warnings ---
 
 export function show_warnings(run, seek) {
   const root = by_id('warnings');
   if (!run.warnings.length) return root.remove();
   const items = run.warnings.map((w) => {
-    const times = w.spans.slice(0, 8).map(([from, to]) => {
-      const words = to > from ? `${from.toFixed(2)}–${to.toFixed(2)} s` : `${from.toFixed(2)} s`;
-      const button = element('button', { type: 'button', class: 'time' }, words);
-      button.addEventListener('click', () => seek(from));
-      return button;
-    });
+    const times = w.spans.slice(0, 8).map(([from, to]) => time_button(from, to, seek));
     if (w.spans.length > 8) times.push(element('span', { class: 'quiet' }, `and ${w.spans.length - 8} more`));
     return element('li', {}, element('p', {}, w.text), element('div', { class: 'times' }, ...times));
   });
@@ -72,12 +71,7 @@ export function show_faults(run, seek) {
   const root = by_id('faults');
   root.hidden = !run.faults?.length;
   if (root.hidden) return;
-  root.append(element('span', { class: 'key' }, 'injected faults'), ...run.faults.map((f) => {
-    const button = element('button', { type: 'button', class: 'time' },
-      `${f.of} ${f.what}, ${f.from.toFixed(2)}–${f.to.toFixed(2)} s`);
-    button.addEventListener('click', () => seek(f.from));
-    return button;
-  }));
+  root.append(element('span', { class: 'key' }, 'injected faults'), ...run.faults.map((f) => time_button(f.from, f.to, seek, `${f.of} ${f.what}, `)));
 }
 
 // Returns the faults that are active at t.
