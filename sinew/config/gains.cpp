@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "sinew/config/problems.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/rows.h"
 #include "sinew/config/text_file.h"
@@ -16,7 +17,7 @@ namespace {
 
 constexpr const char* gain_columns = "angle gain, stiffness gain, velocity gain";
 
-bool parse_row(std::string_view text, GainRow& row, RowProblems& problems) {
+bool parse_row(std::string_view text, GainRow& row, Problems& problems) {
   const std::vector<Cell> cells = cells_of(text);
   if (cells.size() < 2 || cells.size() > 3) {
     problems.add(row.line, 1, "", fmt::format("{} columns", cells.size()),
@@ -75,7 +76,7 @@ void put_joint(Node& joint, const GainRow& row, const Node& entry, const Locatio
 
 std::vector<GainRow> parse_gains(std::string_view text, const std::string& name) {
   std::vector<GainRow> rows;
-  RowProblems problems(name);
+  Problems problems(name);
   std::istringstream lines{std::string(text)};
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {

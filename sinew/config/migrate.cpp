@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "sinew/config/problems.h"
+
 namespace sinew::config {
 
 namespace {
@@ -167,8 +169,6 @@ std::string dotted(const Path& path) {
 
 namespace {
 
-using Problems = std::vector<Problem>;
-
 // --- file without a format ---
 
 // Returns the kind of the file's base, or else the one that its keys suggest.
@@ -223,19 +223,16 @@ std::string sibling_path(const std::vector<std::string>& path, std::string_view 
   return fmt::format("{}{}{}", table, table.empty() ? "" : ".", to);
 }
 
-void report_conflict(const KeyPlace& place, std::string_view text, const std::string& name,
-                     std::string expected, std::string try_this, Problems& problems) {
+void report_conflict(const KeyPlace& place, std::string_view text, std::string expected,
+                     std::string try_this, Problems& problems) {
   const std::size_t line = text.rfind('\n', place.begin);
   const std::size_t column = line == text.npos ? place.begin : place.begin - line - 1;
-  problems.push_back({{name, place.line, static_cast<int>(column) + 1},
-                      dotted(place.path),
-                      "a key that is gone",
-                      std::move(expected),
-                      std::move(try_this)});
+  problems.add(place.line, static_cast<int>(column) + 1, dotted(place.path), "a key that is gone",
+               std::move(expected), std::move(try_this));
 }
 
 // Applies a change to the text. The number of lines stays the same.
-void apply(const KeyChange& change, const std::string& name, Migrated& out, Problems& problems) {
+void apply(const KeyChange& change, Migrated& out, Problems& problems) {
   const std::vector<KeyPlace> places = key_places(out.text);
   std::set<std::string> mentioned;
   for (const KeyPlace& place : places) mentioned.insert(dotted(place.path));
@@ -246,12 +243,12 @@ void apply(const KeyChange& change, const std::string& name, Migrated& out, Prob
     const std::string was = dotted(place.path);
     if (!matches(was, change.from)) continue;
     if (change.to.empty()) {
-      report_conflict(place, out.text, name, std::string(change.why), "", problems);
+      report_conflict(place, out.text, std::string(change.why), "", problems);
       continue;
     }
     const std::string is = sibling_path(place.path, change.to);
     if (mentioned.contains(is)) {
-      report_conflict(place, out.text, name, fmt::format("{} alone, which the file has too", is),
+      report_conflict(place, out.text, fmt::format("{} alone, which the file has too", is),
                       "to take one of them away", problems);
       continue;
     }
@@ -336,13 +333,13 @@ Migrated migrated(std::string_view text, const std::string& name, const Changes&
 
   out.was_kind = out.kind;
   const int first = std::max(out.from, 1);
-  Problems problems;
+  Problems problems(name);
   const auto update_keys = [&](const Kind& kind, int from) {
     out.to = from;
     while (out.to < kind.newest) {
       ++out.to;
       for (const KeyChange* change : changes_to(out.to, out.kind, changes))
-        apply(*change, name, out, problems);
+        apply(*change, out, problems);
     }
   };
   const Kind& kind = *changes.find(out.kind);
@@ -352,7 +349,7 @@ Migrated migrated(std::string_view text, const std::string& name, const Changes&
     out.kind = kind.now;
     update_keys(*changes.find(out.kind), 1);
   }
-  if (!problems.empty()) throw Error(problems);
+  problems.finish();
   if (replaced || out.to > first) set_format(out);
   require_same_values(text, name, out);
   return out;

@@ -23,15 +23,4 @@ std::vector<Cell> cells_of(std::string_view line) {
   return cells;
 }
 
-void RowProblems::add(int line, int column, std::string_view key, std::string found,
-                      std::string expected, std::string try_this) {
-  constexpr std::size_t most = 10;
-  if (problems_.size() >= most) return;
-  problems_.push_back({{name_, line, column},
-                       std::string(key),
-                       std::move(found),
-                       std::move(expected),
-                       std::move(try_this)});
-}
-
 }  // namespace sinew::config

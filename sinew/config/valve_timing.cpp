@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/problems.h"
 #include "sinew/config/rows.h"
 #include "sinew/config/text_file.h"
 
@@ -19,7 +20,7 @@ constexpr std::array<std::string_view, columns> column_names = {"duty", "close",
 
 using Row = std::array<int, columns>;
 
-bool parse_row(std::string_view text, int line, Row& row, RowProblems& problems) {
+bool parse_row(std::string_view text, int line, Row& row, Problems& problems) {
   const std::vector<Cell> cells = cells_of(text);
   if (cells.size() != columns) {
     problems.add(line, 1, "", fmt::format("{} columns", cells.size()), "duty,close,open",
@@ -30,7 +31,8 @@ bool parse_row(std::string_view text, int line, Row& row, RowProblems& problems)
     const auto& [cell, column] = cells[i];
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), row[i]);
     if (error != std::errc{} || end != cell.data() + cell.size()) {
-      problems.add(line, column, column_names[i], in_quotes(cell), "a whole number of ticks");
+      problems.add(line, column, std::string(column_names[i]), in_quotes(cell),
+                   "a whole number of ticks");
       return false;
     }
   }
@@ -38,14 +40,14 @@ bool parse_row(std::string_view text, int line, Row& row, RowProblems& problems)
 }
 
 // Compares a row with the one above: the duty counts up, and a larger duty never closes earlier.
-void check_row(const Row& row, int line, int duty, const Row& last, RowProblems& problems) {
+void check_row(const Row& row, int line, int duty, const Row& last, Problems& problems) {
   if (row[0] != duty) {
     problems.add(line, 1, "duty", std::to_string(row[0]), std::to_string(duty),
                  "one row per percent, 0 to 100 in order");
   }
   for (std::size_t i = 1; i < columns; ++i) {
     if (row[i] >= 0 && row[i] <= ValveTiming::never) continue;
-    problems.add(line, 1, column_names[i], std::to_string(row[i]),
+    problems.add(line, 1, std::string(column_names[i]), std::to_string(row[i]),
                  fmt::format("0 to {} ticks", ValveTiming::never),
                  fmt::format("{} for never", ValveTiming::never));
   }
@@ -70,7 +72,7 @@ void check_row(const Row& row, int line, int duty, const Row& last, RowProblems&
 
 ValveTiming parse_valve_timing(std::string_view text, const std::string& name) {
   ValveTiming timing;
-  RowProblems problems(name);
+  Problems problems(name);
   std::istringstream lines{std::string(text)};
   std::string line_text;
   int line = 0, duty = 0;

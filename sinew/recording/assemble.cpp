@@ -14,6 +14,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/spelling.h"
+#include "sinew/recording/conversion.h"
 #include "sinew/recording/mapping.h"
 #include "sinew/recording/recorded.h"
 #include "sinew/recording/stamp.h"
@@ -141,20 +142,11 @@ namespace {
 
 // --- matching of columns to channels, and conversion of their numbers ---
 
-// Conversion of a file's numbers to those of a channel.
-struct Scaling {
-  double slope = 1, offset = 0;
-  bool same = true;  // whether the numbers are used unchanged
-
-  // Returns the channel's value for a number of the file.
-  double operator()(double number) const { return same ? number : offset + slope * number; }
-};
-
 // A column with its channel.
 struct Matched {
   std::size_t file = 0, column = 0;
   Target target;
-  Scaling conversion;
+  Conversion conversion;
 };
 
 // Matched columns, and the names of columns without a channel.
@@ -217,12 +209,11 @@ class Matcher {
  private:
   void problem(std::string file, std::string key, std::string found, std::string expected,
                std::string try_this = "") {
-    config::Problem& problem = problems_.emplace_back();
-    problem.where.file = std::move(file);
-    problem.key = std::move(key);
-    problem.found = std::move(found);
-    problem.expected = std::move(expected);
-    problem.try_this = std::move(try_this);
+    problems_.push_back({{std::move(file), 0, 0},
+                         std::move(key),
+                         std::move(found),
+                         std::move(expected),
+                         std::move(try_this)});
   }
 
   std::vector<std::string> all_columns() const {
@@ -339,44 +330,30 @@ class Matcher {
     return topic.fields.size() > 1 ? topic.name + "." + topic.fields[t.field].name : topic.name;
   }
 
-  Scaling conversion(const Recorded& file, const RecordedColumn& column, const ColumnMapping& use,
-                     const std::string& unit, Target target) {
+  Conversion conversion(const Recorded& file, const RecordedColumn& column,
+                        const ColumnMapping& use, const std::string& unit, Target target) {
     const std::string& wanted = out_.topics[target.topic].fields[target.field].unit;
     const bool raw = out_.topics[target.topic].name.starts_with("/recorded/");
     const bool bare = unit.empty() && (wanted == "1" || wanted == "count");
-    Scaling out;
+    Conversion out;
     if (unit != wanted && !raw && !bare) out = by_units(file, column, unit, target);
-    if (use.scale != 1) {
-      out.slope *= use.scale;
-      out.same = false;
-    }
+    out.slope *= use.scale;
     if (!use.offset.empty()) {
-      const std::string quantity(
-          config::difference_unit(quantity_unit(out_.topics[target.topic], target.field)));
-      const config::Parsed added = config::parse_quantity(use.offset, quantity, atmosphere_);
+      const config::Parsed added = parse_offset(
+          use.offset, quantity_unit(out_.topics[target.topic], target.field), atmosphere_);
       if (added.mistake)
         problem(file.file, fmt::format("{}.offset", use.name), added.mistake->found,
                 added.mistake->expected, added.mistake->try_this);
       out.offset += added.si;
-      out.same = false;
     }
     return out;
   }
 
-  Scaling by_units(const Recorded& file, const RecordedColumn& column, const std::string& unit,
-                   Target target) {
+  Conversion by_units(const Recorded& file, const RecordedColumn& column, const std::string& unit,
+                      Target target) {
     const std::string wanted = quantity_unit(out_.topics[target.topic], target.field);
-    const auto parse = [&](int number, const std::string& in) {
-      return config::parse_quantity(fmt::format("{} {}", number, in), wanted, atmosphere_);
-    };
-    // Accepts Sinew's unit or another spelling, such as psig.
-    for (const config::Spelling& meant : config::spellings(unit)) {
-      const config::Parsed zero = parse(0, meant.unit), one = parse(1, meant.unit);
-      if (zero.mistake) continue;
-      const double slope = (one.si - zero.si) * meant.factor;
-      return {slope, zero.si, slope == 1 && zero.si == 0};
-    }
-    const config::Parsed zero = parse(0, unit);
+    const auto read = file_unit(unit, wanted, atmosphere_);
+    if (const auto* found = std::get_if<FileUnit>(&read)) return found->conversion;
     const std::string expected =
         fmt::format("{}, for {}", config::describe_unit(wanted), name_of(target));
     const std::string usual = config::usual_units(wanted).front();
@@ -389,14 +366,8 @@ class Matcher {
               fmt::format("units.{}={}", column.name, usual));
     else
       problem(file.file, column.name, fmt::format("the unit {}", config::in_quotes(unit)), expected,
-              without_number(zero.mistake->try_this));
+              std::get<std::string>(read));
     return {};
-  }
-
-  // Returns advice about a quantity as advice about its unit: "0 kPa gauge" -> "kPa gauge".
-  static std::string without_number(std::string text) {
-    for (std::size_t at = 0; (at = text.find("\"0 ", at)) != text.npos;) text.erase(at + 1, 2);
-    return text;
   }
 
   // Requires that all fields of a topic have the same clock.

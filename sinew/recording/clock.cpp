@@ -170,6 +170,47 @@ std::optional<SplitSeconds> split_seconds(const Grid& grid, std::optional<std::s
   return std::nullopt;
 }
 
+RowClock::RowClock(const Grid& grid, const Source& source, std::optional<std::size_t> column)
+    : style_(grid.dialect.numbers) {
+  if (!source.rate.empty() || (column == 0 && grid.dialect.period > 0)) {
+    kind_ = Kind::rate;
+    period_ = source.rate.empty() ? grid.dialect.period : period_of_rate(source.rate);
+    if (source.rate.empty()) columns_ = {0};
+    return;
+  }
+  if (!column) return;
+  kind_ = Kind::instants;
+  if (holds_time(grid.dialect.kinds[*column])) {
+    stamps_.emplace(grid, source, *column);
+    columns_ = stamps_->columns();
+  } else if ((split_ = split_seconds(grid, column))) {
+    columns_ = {split_->seconds, split_->rest};
+  } else {
+    kind_ = Kind::numbers;
+    columns_ = {*column};
+  }
+}
+
+std::optional<RowTime> RowClock::read(const Row& row, std::size_t index, std::size_t& cell) {
+  if (kind_ == Kind::rate) return RowTime{.number = static_cast<double>(index) * period_};
+  if (kind_ == Kind::instants) {
+    const auto instant = stamps_ ? stamps_->read(row, cell) : split_->read(row, style_, cell);
+    return instant ? std::optional(RowTime{.instant = *instant}) : std::nullopt;
+  }
+  cell = columns_.front();
+  const auto number = number_in(row.cells[cell].text, style_);
+  if (!number || !std::isfinite(*number)) return std::nullopt;
+  return RowTime{.number = unwrap_(*number)};
+}
+
+const char* RowClock::expected() const {
+  return stamps_ ? "a date or a time of day as in the other rows" : "a number";
+}
+
+void RowClock::note_wraps(std::string_view column, std::vector<std::string>& notes) const {
+  if (unwrap_.wraps() > 0) notes.push_back(wraps_text(column, unwrap_));
+}
+
 std::vector<ClockColumns> clock_columns(const Grid& grid, std::optional<std::size_t> clock) {
   std::vector<ClockColumns> out;
   const std::vector<Heading>& all = grid.headings();
@@ -271,13 +312,8 @@ std::size_t spread_times(std::vector<double>& time) {
   return shared;
 }
 
-std::string merged_text(std::size_t count) {
-  return fmt::format(
-      "{} rows have the time of the row above and values of other columns: merged with it", count);
-}
-
 void check_order(const std::vector<double>& time, const std::vector<int>& lines,
-                 Problems& problems) {
+                 config::Problems& problems) {
   const auto back = std::is_sorted_until(time.begin(), time.end());
   if (back == time.end()) return;
   const auto row = static_cast<std::size_t>(back - time.begin());
@@ -287,7 +323,7 @@ void check_order(const std::vector<double>& time, const std::vector<int>& lines,
 }
 
 void refuse_repeated(const std::vector<double>& time, const std::vector<int>& lines,
-                     Problems& problems) {
+                     config::Problems& problems) {
   std::size_t count = 0, first = 0;
   for (std::size_t i = 1; i < time.size(); ++i) {
     if (time[i] != time[i - 1] || lines[i] == lines[i - 1]) continue;  // a line may give many rows

@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "sinew/config/problems.h"
 #include "sinew/recording/grid.h"
-#include "sinew/recording/problems.h"
 #include "sinew/recording/stamp.h"
+#include "sinew/recording/wrap.h"
 
 namespace sinew::recording {
 
@@ -61,6 +62,53 @@ struct SplitSeconds {
 std::optional<SplitSeconds> split_seconds(const Grid& grid,
                                           std::optional<std::size_t> column = std::nullopt);
 
+// Time of a row, as the table's clock counts it; it is missing if `number` is NaN.
+struct RowTime {
+  double number = 0;         // in the clock's unit; a rate counts in s
+  std::int64_t instant = 0;  // instant, for a clock of instants [ns]
+};
+
+// Clock of a table's rows: a rate, or columns of numbers, of seconds and their rest, or of dates
+// and times of day.
+class RowClock {
+ public:
+  enum class Kind { none, rate, numbers, instants };
+
+  // Makes a clock without times.
+  RowClock() = default;
+  // Uses the source's rate, else the rate of the header or the times in `column`. Throws
+  // config::Error like StampClock.
+  RowClock(const Grid& grid, const Source& source, std::optional<std::size_t> column);
+
+  // Returns the time of the row, the `index`-th one of the table. Returns nothing if a cell does
+  // not hold a time; `cell` is then its index.
+  std::optional<RowTime> read(const Row& row, std::size_t index, std::size_t& cell);
+
+  // Forgets the rows before the next one.
+  void restart() { unwrap_ = {}; }
+
+  Kind kind() const { return kind_; }
+  double period() const { return period_; }  // between two rows [s]; 0: no rate
+  // Return the dates and times of day, and the seconds in two columns, if the clock has them.
+  const std::optional<StampClock>& stamps() const { return stamps_; }
+  const std::optional<SplitSeconds>& split() const { return split_; }
+  // Returns the columns with the times.
+  const std::vector<std::size_t>& columns() const { return columns_; }
+  // Returns a description of the cells with times, for messages.
+  const char* expected() const;
+  // Adds a note about a counter that overflowed.
+  void note_wraps(std::string_view column, std::vector<std::string>& notes) const;
+
+ private:
+  Kind kind_ = Kind::none;
+  double period_ = 0;
+  std::optional<StampClock> stamps_;
+  std::optional<SplitSeconds> split_;
+  std::vector<std::size_t> columns_;
+  NumberStyle style_;
+  Unwrapper unwrap_;
+};
+
 // Columns of one clock, where a table has several: [from, to).
 struct ClockColumns {
   std::size_t clock = 0, from = 0, to = 0;
@@ -82,16 +130,13 @@ std::vector<double> since_first(const std::vector<std::int64_t>& instants);
 // shared a time.
 std::size_t spread_times(std::vector<double>& time);
 
-// Returns a note about rows of equal time that were merged.
-std::string merged_text(std::size_t count);
-
 // Adds a problem if a time is before the one above it.
 void check_order(const std::vector<double>& time, const std::vector<int>& lines,
-                 Problems& problems);
+                 config::Problems& problems);
 
 // Adds a problem if rows of different lines have the same time as the one above them.
 void refuse_repeated(const std::vector<double>& time, const std::vector<int>& lines,
-                     Problems& problems);
+                     config::Problems& problems);
 
 // Settings of a recording's clock that are given before the recording is read.
 

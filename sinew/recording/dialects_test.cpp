@@ -210,6 +210,13 @@ TEST(Dialects, MissingValuesAreCountedAndKeepTheirRows) {
   EXPECT_EQ(t.notes[0], "F: 11 of 12 values are missing");
 }
 
+TEST(Dialects, OnlyRowsThatMeetTheConditionsAreRead) {
+  const std::string text = "time [s],F [N],test,phase\n0,1,1,fill\n1,2,2,fill\n2,3,1,vent\n";
+  EXPECT_EQ(read(text, {.where = {{"test", "1"}}}).time, (std::vector<double>{0, 2}));
+  EXPECT_EQ(read(text, {.where = {{"test", "1, 2"}, {"phase", "fill"}}}).columns[0].values,
+            (std::vector<double>{1, 2}));
+}
+
 TEST(Dialects, WhenTheFirstRowWasIsKept) {
   EXPECT_EQ(read("t,x [m]\n2026-11-24T10:15:30.125,1\n2026-11-24T10:15:31,1\n").start,
             "2026-11-24T10:15:30.125");

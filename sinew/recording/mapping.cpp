@@ -7,6 +7,7 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/problems.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/reader.h"
 #include "sinew/recording/mapping.fields.h"
@@ -30,42 +31,21 @@ Mapping load_mapping(const std::string& path) {
 
 namespace {
 
-// Collects the faults of a mapping.
-class Findings {
- public:
-  explicit Findings(const std::string& file) : file_(file) {}
-
-  void add(std::string key, std::string found, std::string expected, std::string try_this = "") {
-    config::Problem& problem = list_.emplace_back();
-    problem.where.file = file_;
-    problem.key = std::move(key);
-    problem.found = std::move(found);
-    problem.expected = std::move(expected);
-    problem.try_this = std::move(try_this);
-  }
-  void finish() const {
-    if (!list_.empty()) throw config::Error(list_);
-  }
-
- private:
-  const std::string& file_;
-  std::vector<config::Problem> list_;
-};
-
-void check_row(const std::vector<ColumnMapping>& rows, std::size_t i, Findings& findings) {
+void check_row(const std::vector<ColumnMapping>& rows, std::size_t i, config::Problems& problems) {
   const ColumnMapping& row = rows[i];
   const std::string at = fmt::format("column[{}].", i);
   if (!row.channel.empty() && !row.channel.starts_with('/'))
-    findings.add(at + "channel", config::in_quotes(row.channel), "a channel, which begins with /",
-                 "\"/" + row.channel + "\"");
+    problems.add(0, 0, at + "channel", config::in_quotes(row.channel),
+                 "a channel, which begins with /", "\"/" + row.channel + "\"");
   if (row.scale == 0 || !std::isfinite(row.scale))
-    findings.add(at + "scale", config::format_number(row.scale), "a finite number that is not 0");
+    problems.add(0, 0, at + "scale", config::format_number(row.scale),
+                 "a finite number that is not 0");
   for (std::size_t k = 0; k < i; ++k) {
     if (rows[k].name == row.name)
-      findings.add(at + "name", fmt::format("{} a second time", config::in_quotes(row.name)),
+      problems.add(0, 0, at + "name", fmt::format("{} a second time", config::in_quotes(row.name)),
                    "one row for a column");
     if (!row.channel.empty() && rows[k].channel == row.channel)
-      findings.add(at + "channel", fmt::format("{} a second time", row.channel),
+      problems.add(0, 0, at + "channel", fmt::format("{} a second time", row.channel),
                    fmt::format("one column for it: {} or {}", rows[k].name, row.name));
   }
 }
@@ -73,15 +53,15 @@ void check_row(const std::vector<ColumnMapping>& rows, std::size_t i, Findings& 
 }  // namespace
 
 void check_mapping(const Mapping& mapping, const std::string& file) {
-  Findings findings(file);
-  for (std::size_t i = 0; i < mapping.columns.size(); ++i) check_row(mapping.columns, i, findings);
+  config::Problems problems(file);
+  for (std::size_t i = 0; i < mapping.columns.size(); ++i) check_row(mapping.columns, i, problems);
   if (!mapping.clock.column.empty() && !mapping.clock.rate.empty())
-    findings.add(
-        "clock.rate",
+    problems.add(
+        0, 0, "clock.rate",
         fmt::format("{} together with clock.column {}", config::in_quotes(mapping.clock.rate),
                     config::in_quotes(mapping.clock.column)),
         "one of the two: a column with times, or a rate");
-  findings.finish();
+  problems.finish();
 }
 
 namespace {

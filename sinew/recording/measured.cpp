@@ -18,15 +18,15 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/problems.h"
 #include "sinew/config/quantity.h"
-#include "sinew/config/spelling.h"
 #include "sinew/recording/clock.h"
+#include "sinew/recording/conversion.h"
 #include "sinew/recording/grid.h"
 #include "sinew/recording/number.h"
 #include "sinew/recording/parts.h"
-#include "sinew/recording/problems.h"
+#include "sinew/recording/selected_rows.h"
 #include "sinew/recording/stated.h"
-#include "sinew/recording/wrap.h"
 #include "sinew/units/unit.h"
 
 namespace sinew::recording {
@@ -35,20 +35,12 @@ namespace {
 
 // --- places of the wanted columns in a table, and conversion of their numbers ---
 
-// Conversion of a file's unit to SI: a pressure may have an offset.
-struct ToSi {
-  double slope = 1, offset = 0;
-  // Convert a number of the file to SI, and a value in SI to a number of the file.
-  double operator()(double number) const { return offset + slope * number; }
-  double back(double si) const { return (si - offset) / slope; }
-};
-
 // Specified column that was found in the file.
 struct FoundColumn {
   const ColumnSpec* spec = nullptr;
   std::size_t index = 0;  // index of the file's column; the first if there are several
   bool is_at = false;     // whether it is the condition of the columns with an @
-  ToSi conversion;
+  Conversion conversion;
   std::optional<double> constant;  // value for the whole file, SI
   std::string unit;                // unit as written in the file
   std::string shown;               // unit in Sinew's spelling; empty: Sinew has no such unit
@@ -58,22 +50,17 @@ struct FoundColumn {
 class ColumnFinder {
  public:
   // Keeps references to all three, which must outlive this object.
-  ColumnFinder(const Grid& grid, const Source& source, Problems& problems)
+  ColumnFinder(const Grid& grid, const Source& source, config::Problems& problems)
       : grid_(grid), source_(source), problems_(problems) {}
 
   // Returns the columns found; an optional column that is missing is left out.
   std::vector<FoundColumn> find(std::span<const ColumnSpec> specs);
-
-  // Returns the columns of `where`, and the values that a row must have in them.
-  std::vector<std::pair<std::size_t, std::string>> conditions();
 
  private:
   bool find_stated(const ColumnSpec& w, std::vector<FoundColumn>& out);
   void add_offset(const ColumnSpec& w, FoundColumn& f);
   void refuse_ignored_column(const ColumnSpec& w, const std::vector<FoundColumn>& found);
   void find_one(const ColumnSpec& w, std::vector<FoundColumn>& out);
-  std::vector<std::string_view> names() const;
-  std::string all_names() const;
   std::string near_name(const std::string& name) const;
   void refuse_duplicate(const std::string& name, std::size_t first);
   void check_names(std::span<const ColumnSpec> specs);
@@ -83,16 +70,8 @@ class ColumnFinder {
 
   const Grid& grid_;
   const Source& source_;
-  Problems& problems_;
+  config::Problems& problems_;
 };
-
-// Returns advice about a quantity as advice about its unit: "0 kPa gauge" -> "kPa gauge".
-std::string without_number(std::string text) {
-  for (std::size_t at = 0; (at = text.find("\"0 ", at)) != text.npos;) text.erase(at + 1, 2);
-  return text;
-}
-
-bool is_pressure(std::string_view unit) { return unit.starts_with("Pa "); }
 
 // Returns the unit in the header. Sinew's own channels have only "Pa": a pressure is absolute
 // unless its name contains gauge.
@@ -117,23 +96,12 @@ std::vector<FoundColumn> ColumnFinder::find(std::span<const ColumnSpec> specs) {
   return out;
 }
 
-std::vector<std::string_view> ColumnFinder::names() const {
-  std::vector<std::string_view> out;
-  for (const Heading& h : grid_.headings()) {
-    out.push_back(h.name);
-    if (!h.at_name.empty()) out.push_back(h.at_name);
-  }
-  return out;
-}
-
 // Refuses a column that would be ignored because a value is stated for the column it replaces.
 void ColumnFinder::refuse_ignored_column(const ColumnSpec& w,
                                          const std::vector<FoundColumn>& found) {
   const auto at =
       std::ranges::find_if(found, [&](const FoundColumn& f) { return f.spec->name == w.replaces; });
-  const bool has_column =
-      std::ranges::any_of(grid_.headings(), [&](const Heading& h) { return h.is_called(w.name); });
-  if (at->index < grid_.headings().size() || !has_column) return;
+  if (at->index < grid_.headings().size() || !grid_.column_called(w.name)) return;
   problems_.add(grid_.header_line(), 1, std::string(w.name),
                 fmt::format("a column, and a value of {} for the whole file", w.replaces),
                 "one of the two");
@@ -163,7 +131,7 @@ void ColumnFinder::find_one(const ColumnSpec& w, std::vector<FoundColumn>& out) 
   if (w.optional && !given) return;
   const std::string near = near_name(name);
   problems_.add(grid_.header_line(), 1, std::string(w.name),
-                fmt::format("no column {} among {}", config::in_quotes(name), all_names()),
+                fmt::format("no column {} among {}", config::in_quotes(name), grid_.all_names()),
                 fmt::format("`{} [{}]`, {}", w.name, w.unit, w.doc),
                 near.empty() ? fmt::format("names.{}=NAME with the file's name for it", w.name)
                              : fmt::format("names.{}={}", w.name, near));
@@ -186,8 +154,7 @@ bool ColumnFinder::find_stated(const ColumnSpec& w, std::vector<FoundColumn>& ou
     if (!text || length > longest) text = stated.value, longest = length;
   }
   if (!text) return false;
-  if (source_.names.contains(std::string(w.name)) ||
-      std::ranges::any_of(grid_.headings(), [&](const Heading& h) { return h.is_called(w.name); }))
+  if (source_.names.contains(std::string(w.name)) || grid_.column_called(w.name))
     problems_.add(
         grid_.header_line(), 1, std::string(w.name),
         fmt::format("a column, and the value {} for the whole file", config::in_quotes(*text)),
@@ -212,8 +179,7 @@ bool ColumnFinder::find_stated(const ColumnSpec& w, std::vector<FoundColumn>& ou
 void ColumnFinder::add_offset(const ColumnSpec& w, FoundColumn& f) {
   const auto given = source_.offsets.find(std::string(w.name));
   if (given == source_.offsets.end()) return;
-  const config::Parsed added = config::parse_quantity(
-      given->second, std::string(config::difference_unit(w.unit)), source_.atmosphere);
+  const config::Parsed added = parse_offset(given->second, std::string(w.unit), source_.atmosphere);
   if (added.mistake)
     problems_.add(0, 0, fmt::format("offsets.{}", w.name), added.mistake->found,
                   added.mistake->expected, added.mistake->try_this);
@@ -233,20 +199,10 @@ void ColumnFinder::refuse_duplicate(const std::string& name, std::size_t first) 
 // Returns the only channel that ends with the name, or else a similar name in quotes.
 std::string ColumnFinder::near_name(const std::string& name) const {
   std::vector<std::string_view> channels;
-  for (const std::string_view one : names())
+  for (const std::string_view one : grid_.names())
     if (one.starts_with('/') && one.ends_with("/" + name)) channels.push_back(one);
   if (channels.size() == 1) return std::string(channels.front());
-  return config::closest_in_quotes(name, names());
-}
-
-std::string ColumnFinder::all_names() const {
-  std::string out;
-  for (const std::string_view name : names()) {
-    if (out.find(name) != out.npos) continue;
-    if (!out.empty()) out += ", ";
-    out += name;
-  }
-  return out;
+  return config::closest_in_quotes(name, grid_.names());
 }
 
 // Requires that the names in `names`, `units` and the like exist.
@@ -265,32 +221,7 @@ void ColumnFinder::check_names(std::span<const ColumnSpec> specs) {
         std::ranges::find(known, name) == known.end())
       problems_.add(0, 0, "values", config::in_quotes(name), config::either(known),
                     config::closest_in_quotes(name, known));
-  const auto columns = names();
-  for (const auto& [column, unit] : source_.units) {
-    const bool there = std::ranges::find(columns, column) != columns.end() ||
-                       std::ranges::any_of(grid_.headings(), [&name = column](const Heading& h) {
-                         return h.written == name;
-                       });
-    if (!there)
-      problems_.add(0, 0, "units", config::in_quotes(column),
-                    "a column of the file: " + all_names(),
-                    config::closest_in_quotes(column, columns));
-  }
-}
-
-std::vector<std::pair<std::size_t, std::string>> ColumnFinder::conditions() {
-  std::vector<std::pair<std::size_t, std::string>> out;
-  for (const auto& [name, values] : source_.where) {
-    const auto at = std::ranges::find_if(
-        grid_.headings(), [&called = name](const Heading& h) { return h.is_called(called); });
-    if (at == grid_.headings().end()) {
-      problems_.add(0, 0, "where", config::in_quotes(name), "a column of the file: " + all_names(),
-                    config::closest_in_quotes(name, names()));
-      continue;
-    }
-    out.emplace_back(static_cast<std::size_t>(at - grid_.headings().begin()), values);
-  }
-  return out;
+  check_columns(grid_, "units", source_.units, problems_);
 }
 
 // Uses the first meaning of the unit's text that has the wanted dimension.
@@ -301,26 +232,11 @@ void ColumnFinder::convert(const Heading& h, const ColumnSpec& w, FoundColumn& f
   auto given = source_.units.find(h.name);
   if (given == source_.units.end()) given = source_.units.find(h.written);
   f.unit = given != source_.units.end() ? given->second : unit_in(h);
-  std::vector<config::Spelling> meanings = config::spellings(f.unit);
-  if (meanings.empty()) meanings.push_back({f.unit});
-  std::string try_this;
-  for (const config::Spelling& meaning : meanings) {
-    const auto parse = [&](int number) {
-      return config::parse_quantity(fmt::format("{} {}", number, meaning.unit), w.unit,
-                                    source_.atmosphere);
-    };
-    const config::Parsed zero = parse(0), one = parse(1);
-    if (zero.mistake) {
-      if (try_this.empty()) try_this = without_number(zero.mistake->try_this);
-      continue;
-    }
-    f.conversion = {(one.si - zero.si) * meaning.factor, zero.si};
-    if (meaning.factor == 1) f.shown = meaning.unit;
-    return;
-  }
-  if (is_pressure(w.unit) && !f.unit.empty() && config::is_unit(meanings.front().unit + " gauge"))
-    try_this = fmt::format("\"{0} gauge\" or \"{0} abs\"", f.unit);
-  refuse_unit(h, w, f.unit, try_this);
+  const auto unit = file_unit(f.unit, std::string(w.unit), source_.atmosphere);
+  if (const auto* advice = std::get_if<std::string>(&unit))
+    return refuse_unit(h, w, f.unit, *advice);
+  f.conversion = std::get<FileUnit>(unit).conversion;
+  f.shown = std::get<FileUnit>(unit).shown;
 }
 
 void ColumnFinder::refuse_unit(const Heading& h, const ColumnSpec& w, const std::string& unit,
@@ -360,9 +276,7 @@ std::string possible_units(const ColumnSpec& spec, double number) {
 std::optional<std::size_t> clock_of(const Grid& grid, const Source& source) {
   const auto given = source.names.find("time");
   const std::string name = given != source.names.end() ? given->second : "time";
-  for (std::size_t i = 0; i < grid.headings().size(); ++i)
-    if (grid.headings()[i].is_called(name)) return i;
-  return std::nullopt;
+  return grid.column_called(name);
 }
 
 bool needs_time(std::span<const ColumnSpec> specs) {
@@ -377,27 +291,24 @@ class Table {
 
   Measured read(std::span<const ColumnSpec> specs) {
     refuse_clocks(specs);
-    ColumnFinder finder(grid_, source_, problems_);
-    found_ = finder.find(specs);
-    where_ = finder.conditions();
+    found_ = ColumnFinder(grid_, source_, problems_).find(specs);
     find_clock();
+    SelectedRows rows(grid_, source_, clock_, read_columns(), problems_);
     problems_.finish();
 
     Measured out{.file = grid_.file, .notes = grid_.notes};
-    const std::size_t rows = grid_.rows_about();
+    const std::size_t count = grid_.rows_about();
     for (const FoundColumn& f : found_) {
       out.columns.push_back({std::string(f.spec->name),
                              std::string(f.spec->unit),
                              {},
                              f.shown,
                              f.constant.has_value()});
-      out.columns.back().values.reserve(rows);
+      out.columns.back().values.reserve(count);
     }
-    out.lines.reserve(rows);
-    Body body(grid_);
-    read_body(body, out);
-    body.finish(out.notes);
-    report_dropped(body.count(), out);
+    out.lines.reserve(count);
+    while (rows.next()) add_rows(rows, out);
+    report_dropped(rows.finish(out.notes), out);
     problems_.finish();
     check_sizes(out);
     check_time(out);
@@ -406,24 +317,23 @@ class Table {
   }
 
  private:
-  // Finds the source of the times: a column of numbers or stamps, or a rate.
+  // Finds the source of the times: a column, the header or a rate.
   void find_clock() {
-    const std::size_t none = grid_.headings().size();
-    for (const FoundColumn& f : found_) {
-      if (f.spec->name != "time") continue;
-      if (f.constant) return;
-      if (f.index == none)
-        period_ = source_.rate.empty() ? grid_.dialect.period : period_of_rate(source_.rate);
-      if (f.index == none || f.is_at) return;
-      clock_columns_ = {f.index};
-      if (holds_time(grid_.dialect.kinds[f.index])) {
-        clock_ = std::make_unique<StampClock>(grid_, source_, f.index);
-        clock_columns_ = clock_->columns();
-      } else if ((split_ = split_seconds(grid_, f.index))) {
-        clock_columns_ = {split_->seconds, split_->rest};
-      }
-      excel_days_ = source_.dates == "excel" && !clock_;
-    }
+    const auto time =
+        std::ranges::find(found_, "time", [](const FoundColumn& f) { return f.spec->name; });
+    if (time == found_.end() || time->constant || time->is_at) return;
+    const bool of_header = time->index == grid_.headings().size();
+    clock_ = RowClock(grid_, source_, of_header ? 0 : time->index);
+  }
+
+  std::vector<std::size_t> read_columns() const {
+    std::vector<std::size_t> out;
+    for (const FoundColumn& f : found_)
+      if (!f.is_at && f.index < grid_.headings().size()) out.push_back(f.index);
+    for (std::size_t i = 0; i < grid_.headings().size(); ++i)
+      if (!grid_.headings()[i].at_name.empty()) out.push_back(i);
+    std::erase_if(out, [&](std::size_t i) { return std::ranges::count(clock_.columns(), i) > 0; });
+    return out;
   }
 
   // Refuses columns of another clock, as they would get the times of the first one.
@@ -436,19 +346,13 @@ class Table {
         return c.clock == *clock && column >= c.from && column < c.to;
       });
     };
-    const auto is_there = [&](std::string_view name) {
-      return std::ranges::any_of(grid_.headings(),
-                                 [&](const Heading& h) { return h.is_called(name); });
-    };
     for (const ColumnSpec& w : specs) {
-      if (!w.replaces.empty() && is_there(w.replaces)) continue;
+      if (!w.replaces.empty() && grid_.column_called(w.replaces)) continue;
       const auto given = source_.names.find(std::string(w.name));
       const std::string name = given == source_.names.end() ? std::string(w.name) : given->second;
-      const auto at = std::ranges::find_if(grid_.headings(),
-                                           [&](const Heading& h) { return h.is_called(name); });
-      const auto column = static_cast<std::size_t>(at - grid_.headings().begin());
-      if (at == grid_.headings().end() || w.name == "time" || is_own(column)) continue;
-      problems_.add(grid_.header_line(), at->column, std::string(w.name),
+      const auto column = grid_.column_called(name);
+      if (!column || w.name == "time" || is_own(*column)) continue;
+      problems_.add(grid_.header_line(), grid_.headings()[*column].column, std::string(w.name),
                     fmt::format("the column {} of another clock than {}", config::in_quotes(name),
                                 config::in_quotes(grid_.headings()[*clock].name)),
                     "columns of one clock",
@@ -467,95 +371,49 @@ class Table {
     return {};
   }
 
-  // Merges rows of equal time that fill each other's empty cells: the logger wrote a line for
-  // each of its channels.
-  void read_body(Body& body, Measured& out) {
-    Row above, row;
-    std::size_t index = 0, merged = 0;
-    while (body.next(row)) {
-      if (fills(above, row)) {
-        take_cells(row, above);
-        ++merged;
-        continue;
-      }
-      if (!above.cells.empty() && meets_conditions(above)) add_rows(above, index, out);
-      std::swap(above, row);
-      index = body.count() - 1;
-    }
-    if (!above.cells.empty() && meets_conditions(above)) add_rows(above, index, out);
-    if (merged > 0) out.notes.push_back(merged_text(merged));
-  }
-
-  bool fills(const Row& above, const Row& row) const {
-    if (clock_columns_.empty() || above.cells.empty()) return false;
-    for (std::size_t i = 0; i < row.cells.size(); ++i) {
-      const std::string_view a = above.cells[i].text, b = row.cells[i].text;
-      const bool is_clock = std::ranges::find(clock_columns_, i) != clock_columns_.end();
-      if (is_clock ? a != b || is_missing(a) : !is_missing(a) && !is_missing(b)) return false;
-    }
-    return true;
-  }
-
-  static void take_cells(Row& from, Row& to) {
-    for (std::size_t i = 0; i < to.cells.size(); ++i)
-      if (is_missing(to.cells[i].text)) to.cells[i] = from.cells[i];
-    for (auto& text : from.mended) to.mended.push_back(std::move(text));
-    from.mended.clear();
-  }
-
-  static std::string_view first_of(std::string_view& list) {
-    const std::size_t comma = std::min(list.find(','), list.size());
-    const std::string_view out = config::trimmed(list.substr(0, comma));
-    list.remove_prefix(std::min(comma + 1, list.size()));
-    return out;
-  }
-
-  bool same(std::string_view cell, std::string_view value) const {
-    const auto a = number_in(cell, grid_.dialect.numbers), b = number_in(value);
-    return a && b ? *a == *b : cell == value;
-  }
-
-  // Returns whether the row meets every condition of `where`.
-  bool meets_conditions(const Row& row) const {
-    return std::ranges::all_of(where_, [&](const auto& condition) {
-      for (std::string_view rest = condition.second; !rest.empty();)
-        if (same(row.cells[condition.first].text, first_of(rest))) return true;
-      return false;
-    });
-  }
-
   // Adds one row, or one for each column with an @ whose cell is not empty.
-  void add_rows(const Row& row, std::size_t index, Measured& out) {
-    const bool several = std::ranges::any_of(found_, &FoundColumn::is_at);
-    if (!several) return add_row(row, index, nullptr, out);
+  void add_rows(SelectedRows& rows, Measured& out) {
+    if (std::ranges::none_of(found_, &FoundColumn::is_at)) return add_row(rows, nullptr, out);
     for (std::size_t i = 0; i < grid_.headings().size(); ++i)
-      if (!grid_.headings()[i].at_name.empty() && !row.cells[i].text.empty())
-        add_row(row, index, &grid_.headings()[i], out);
+      if (!grid_.headings()[i].at_name.empty() && !rows.row().cells[i].text.empty())
+        add_row(rows, &grid_.headings()[i], out);
   }
 
-  void add_row(const Row& row, std::size_t index, const Heading* at, Measured& out) {
+  void add_row(SelectedRows& rows, const Heading* at, Measured& out) {
     values_.clear();
-    bool missing = false;
     for (const FoundColumn& f : found_) {
-      const auto value = f.is_at ? condition(*at, f) : value_of(row, index, at, f, missing);
-      if (!value && !missing) return;
-      if (!value) break;
+      const auto value = f.is_at ? condition(*at, f) : value_of(rows, at, f);
+      if (!value) return;
+      if (std::isnan(*value)) {
+        ++missing_[f.spec->name];
+        ++dropped_;
+        return;
+      }
       values_.push_back(*value);
     }
-    if (missing) {
-      ++dropped_;
-      return;
-    }
     for (std::size_t i = 0; i < values_.size(); ++i) out.columns[i].values.push_back(values_[i]);
-    out.lines.push_back(row.line);
+    out.lines.push_back(rows.row().line);
   }
 
-  std::optional<double> value_of(const Row& row, std::size_t index, const Heading* at,
-                                 const FoundColumn& f, bool& missing) {
+  // Returns the value in SI: NaN if it is missing; nothing after a fault.
+  std::optional<double> value_of(SelectedRows& rows, const Heading* at, const FoundColumn& f) {
     if (f.constant) return *f.constant;
-    if (f.index == grid_.headings().size()) return static_cast<double>(index) * period_;
-    if ((clock_ || split_) && f.spec->name == "time") return stamp(row, f, missing);
-    return cell(row, column_of(f, at), f, missing);
+    if (f.spec->name == "time") {
+      const std::optional<RowTime> time = rows.time();
+      return time ? std::optional(seconds(*time, f)) : std::nullopt;
+    }
+    const auto number = rows.number(column_of(f, at), f.spec->name, false, f.spec->words);
+    return number ? std::optional(f.conversion(*number)) : std::nullopt;
+  }
+
+  double seconds(const RowTime& time, const FoundColumn& f) {
+    if (std::isnan(time.number) || clock_.kind() == RowClock::Kind::rate) return time.number;
+    if (clock_.kind() == RowClock::Kind::numbers && source_.dates != "excel")
+      return f.conversion(time.number);
+    if (!first_time_) first_time_ = time;
+    return clock_.kind() == RowClock::Kind::instants
+               ? static_cast<double>(time.instant - first_time_->instant) / 1e9
+               : (time.number - first_time_->number) * 86400;
   }
 
   // Returns the column to read: `at` represents all columns of its name.
@@ -573,58 +431,6 @@ class Table {
       problems_.add(grid_.header_line(), at.column, at.at_name, parsed.mistake->found,
                     parsed.mistake->expected, parsed.mistake->try_this);
     return std::nullopt;
-  }
-
-  std::optional<double> stamp(const Row& row, const FoundColumn& f, bool& missing) {
-    std::size_t column = f.index;
-    const auto instant =
-        clock_ ? clock_->read(row, column) : split_->read(row, grid_.dialect.numbers, column);
-    if (!instant) {
-      bad_cell(row, column, f, clock_ ? "a date or a time of day as in the other rows" : "a number",
-               missing);
-      return std::nullopt;
-    }
-    if (!first_instant_) first_instant_ = *instant;
-    return static_cast<double>(*instant - *first_instant_) / 1e9;
-  }
-
-  std::optional<double> cell(const Row& row, std::size_t index, const FoundColumn& f,
-                             bool& missing) {
-    const std::string_view text = row.cells[index].text;
-    const auto number = number_in(text, grid_.dialect.numbers);
-    if (number && std::isfinite(*number)) {
-      if (f.spec->name != "time") return f.conversion(*number);
-      return excel_days_ ? days(*number) : f.conversion(unwrap_(*number));
-    }
-    for (const auto& [word, meant] : f.spec->words)
-      if (text == word) return meant;
-    std::string expected = "a finite number";
-    for (const auto& [word, meant] : f.spec->words)
-      expected += fmt::format(" or {}", config::in_quotes(word));
-    bad_cell(row, index, f, expected, missing);
-    return std::nullopt;
-  }
-
-  double days(double number) {
-    if (!first_day_) first_day_ = number;
-    return (number - *first_day_) * 86400;
-  }
-
-  void bad_cell(const Row& row, std::size_t index, const FoundColumn& f,
-                const std::string& expected, bool& missing) {
-    const std::string_view text = row.cells[index].text;
-    const bool is_word = hint_for(text, grid_.dialect.numbers).empty() && f.spec->words.empty();
-    const bool is_none = is_missing(text) || number_in(text) ||  // nan, inf
-                         (is_word && source_.drop_incomplete);
-    if (is_none && source_.drop_incomplete) {
-      ++missing_[f.spec->name];
-      missing = true;
-      return;
-    }
-    problems_.add(row.line, row.cells[index].column, std::string(f.spec->name),
-                  text.empty() ? "an empty cell" : config::in_quotes(text), expected,
-                  is_none ? "drop_incomplete=true to leave such rows out"
-                          : hint_for(text, grid_.dialect.numbers));
   }
 
   void report_dropped(std::size_t rows, Measured& out) const {
@@ -669,7 +475,7 @@ class Table {
   void check_time(Measured& data) {
     const auto is_time = [&] { return std::ranges::find(data.columns, "time", &Column::name); };
     if (is_time() == data.columns.end()) return;
-    if (unwrap_.wraps() > 0) data.notes.push_back(wraps_text("time", unwrap_));
+    clock_.note_wraps("time", data.notes);
     sort_by_time(data, is_time()->values);
     const auto at = is_time();  // sorting has replaced the columns
     check_order(at->values, data.lines, problems_);
@@ -713,17 +519,10 @@ class Table {
 
   const Grid& grid_;
   const Source& source_;
-  Problems problems_;
+  config::Problems problems_;
   std::vector<FoundColumn> found_;
-  std::vector<std::pair<std::size_t, std::string>> where_;  // index of a column, its values
-  std::unique_ptr<StampClock> clock_;                       // if times are stamps
-  std::optional<SplitSeconds> split_;                       // if times are in two columns
-  std::vector<std::size_t> clock_columns_;                  // columns that hold the times
-  Unwrapper unwrap_;
-  std::optional<std::int64_t> first_instant_;  // [ns]
-  std::optional<double> first_day_;
-  bool excel_days_ = false;
-  double period_ = 0;             // period of rows with a rate  [s]
+  RowClock clock_;
+  std::optional<RowTime> first_time_;
   std::vector<double> values_;    // values of the current row
   std::set<int> bad_conditions_;  // columns already reported
   std::map<std::string_view, std::size_t> missing_;

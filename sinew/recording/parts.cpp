@@ -7,7 +7,6 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/recording/clock.h"
-#include "sinew/recording/wrap.h"
 
 namespace sinew::recording {
 
@@ -21,16 +20,11 @@ constexpr double near_start = 0.05;
 class PartFinder {
  public:
   PartFinder(const Grid& grid, const Source& source, std::optional<std::size_t> clock)
-      : grid_(grid), clock_(source.rate.empty() ? clock : std::nullopt) {
-    if (clock_ && holds_time(grid.dialect.kinds[*clock_]))
-      stamps_ = std::make_unique<StampClock>(grid, source, *clock_);
-    else if (clock_)
-      split_ = split_seconds(grid, clock_);
-  }
+      : grid_(grid), clock_(grid, source, clock) {}
 
   std::vector<Part> find() {
     Body body(grid_);
-    for (Row row; body.next(row);) take(row);
+    for (Row row; body.next(row);) take(row, body.count());
     if (!parts_.empty() && parts_.back().end == 0) parts_.back().end = grid_.text->size();
     return std::move(parts_);
   }
@@ -43,30 +37,27 @@ class PartFinder {
     return true;
   }
 
-  std::optional<double> time_of(const Row& row) {
-    if (!clock_) return std::nullopt;
-    std::size_t cell = *clock_;
-    if (!stamps_ && !split_) {
-      const auto number = number_in(row.cells[cell].text, grid_.dialect.numbers);
-      return number ? std::optional(unwrap_(*number)) : std::nullopt;
-    }
-    const auto instant =
-        stamps_ ? stamps_->read(row, cell) : split_->read(row, grid_.dialect.numbers, cell);
-    return instant ? std::optional(static_cast<double>(*instant)) : std::nullopt;
+  std::optional<double> time_of(const Row& row, std::size_t index) {
+    if (clock_.kind() == RowClock::Kind::none) return std::nullopt;
+    std::size_t cell = 0;
+    const std::optional<RowTime> time = clock_.read(row, index, cell);
+    if (!time) return std::nullopt;
+    return clock_.kind() == RowClock::Kind::instants ? static_cast<double>(time->instant)
+                                                     : time->number;
   }
 
-  void take(const Row& row) {
+  void take(const Row& row, std::size_t index) {
     if (is_header(row)) {
       close(row.at);
       return;
     }
-    const std::optional<double> time = time_of(row);
+    const std::optional<double> time = time_of(row, index);
     if (time && last_ && *time < *last_ && *time <= first_ + near_start * (*last_ - first_))
       close(row.at);
     if (parts_.empty() || parts_.back().end != 0) {
       parts_.push_back({.begin = row.at, .line = row.line});
       last_.reset();
-      unwrap_ = {};
+      clock_.restart();
     }
     if (!time) return;
     if (!last_) first_ = *time;
@@ -78,10 +69,7 @@ class PartFinder {
   }
 
   const Grid& grid_;
-  std::optional<std::size_t> clock_;
-  std::unique_ptr<StampClock> stamps_;
-  std::optional<SplitSeconds> split_;
-  Unwrapper unwrap_;
+  RowClock clock_;
   std::vector<Part> parts_;  // the last one has end 0 until it is known
   double first_ = 0;
   std::optional<double> last_;

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <memory>
 #include <optional>
 #include <set>
 
@@ -16,15 +14,14 @@
 #include "sinew/recording/clock.h"
 #include "sinew/recording/grid.h"
 #include "sinew/recording/parts.h"
+#include "sinew/recording/selected_rows.h"
 #include "sinew/recording/stamp.h"
 #include "sinew/recording/text.h"
-#include "sinew/recording/wrap.h"
 
 namespace sinew::recording {
 
 namespace {
 
-constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double seconds_per_day = 86400;
 
 std::string small_letters(std::string_view text) {
@@ -70,18 +67,16 @@ class RawReader {
   RawTable read(std::set<std::string>& names) {
     RawTable out{.file = grid_.file};
     if (!only_ || only_->from == 0) out.notes = grid_.notes;
-    check_units();
+    check_columns(grid_, "units", source_.units, problems_);
     find_clock(out);
-    problems_.finish();
-    if (!note_.empty()) out.notes.push_back(note_);
     choose_columns(names, out);
-    Body body(grid_);
-    for (Row row; body.next(row);) add(row, body.count() - 1, out);
-    body.finish(out.notes);
+    SelectedRows rows(grid_, source_, clock_, indices_, problems_, only_);
+    problems_.finish();
+    while (rows.next()) add(rows, out);
+    rows.finish(out.notes);
     problems_.finish();
     finish_clock(out);
     problems_.finish();
-    report_wraps(out);
     note_missing(out);
     return out;
   }
@@ -89,30 +84,12 @@ class RawReader {
  private:
   const std::vector<ColumnKind>& kinds() const { return grid_.dialect.kinds; }
 
-  // Requires that each name in `units` exists.
-  void check_units() {
-    std::vector<std::string_view> names = config::names_of(grid_.headings());
-    for (const auto& [column, unit] : source_.units) {
-      if (std::ranges::any_of(grid_.headings(),
-                              [&name = column](const Heading& h) { return h.is_called(name); }))
-        continue;
-      problems_.add(0, 0, "units", config::in_quotes(column), config::either(names),
-                    config::closest_in_quotes(column, names));
-    }
-  }
-
-  std::optional<std::size_t> column_called(std::string_view name) const {
-    for (std::size_t i = 0; i < grid_.headings().size(); ++i)
-      if (grid_.headings()[i].is_called(name)) return i;
-    return std::nullopt;
-  }
-
   // Returns the given column, a column of stamps, or one with a usual name.
   std::optional<std::size_t> clock_column() {
     if (only_) return only_->clock;
     const auto stated = source_.names.find("time");
     if (stated != source_.names.end()) {
-      if (const auto column = column_called(stated->second)) return column;
+      if (const auto column = grid_.column_called(stated->second)) return column;
       const auto names = config::names_of(grid_.headings());
       problems_.add(grid_.header_line(), 1, "time",
                     fmt::format("no column {}", config::in_quotes(stated->second)),
@@ -132,39 +109,22 @@ class RawReader {
   }
 
   void find_clock(RawTable& out) {
-    if (!source_.rate.empty()) {
-      period_ = period_of_rate(source_.rate);
-      out.clock = "rate " + source_.rate;
+    clock_ = RowClock(grid_, source_, clock());
+    of_clock_.insert(clock_.columns().begin(), clock_.columns().end());
+    if (clock_.kind() == RowClock::Kind::rate) {
+      out.clock = source_.rate.empty() ? "rate of its header" : "rate " + source_.rate;
+      if (source_.rate.empty()) out.first = grid_.dialect.first;
       return;
     }
-    const auto column = clock_column();
-    if (!column) return;
-    if (holds_time(kinds()[*column])) {
-      stamps_ = std::make_unique<StampClock>(grid_, source_, *column);
-      for (const std::size_t used : stamps_->columns()) {
-        out.clock += (out.clock.empty() ? "column " : " and ") + grid_.headings()[used].name;
-        of_clock_.insert(used);
-      }
-      return;
-    }
-    const Heading& h = grid_.headings()[*column];
-    if (grid_.dialect.period > 0 && *column == 0) {
-      period_ = grid_.dialect.period;
-      out.clock = "rate of its header";
-      out.first = grid_.dialect.first;
-      of_clock_.insert(*column);
-      return;
-    }
-    if ((split_ = split_seconds(grid_, *column))) {
-      out.clock = fmt::format("column {} and {}", h.name, grid_.headings()[split_->rest].name);
-      of_clock_.insert({split_->seconds, split_->rest});
-      return;
-    }
-    numbers_ = *column;
-    of_clock_.insert(*column);
-    out.clock = "column " + h.name;
-    if (source_.dates != "excel") find_unit(h);
+    for (const std::size_t used : clock_.columns())
+      out.clock += (out.clock.empty() ? "column " : " and ") + grid_.headings()[used].name;
+    if (!is_numbers() || source_.dates == "excel") return;
+    find_unit(clock_heading());
+    if (!note_.empty()) out.notes.push_back(note_);
   }
+
+  bool is_numbers() const { return clock_.kind() == RowClock::Kind::numbers; }
+  const Heading& clock_heading() const { return grid_.headings()[clock_.columns().front()]; }
 
   // Finds the unit of a clock of numbers.
   void find_unit(const Heading& h) {
@@ -194,7 +154,8 @@ class RawReader {
     Body body(grid_);
     Row row;
     if (!body.next(row)) return 0;
-    return number_in(row.cells[*numbers_].text, grid_.dialect.numbers).value_or(0);
+    const std::string_view text = row.cells[clock_.columns().front()].text;
+    return number_in(text, grid_.dialect.numbers).value_or(0);
   }
 
   bool looks_like_days() const {
@@ -252,99 +213,51 @@ class RawReader {
     factors_.push_back(h.factor);
   }
 
-  bool has_clock() const { return stamps_ || split_ || numbers_ || period_ > 0; }
+  bool has_clock() const { return clock_.kind() != RowClock::Kind::none; }
   bool is_read(std::size_t column) const {
     return !only_ || (column >= only_->from && column < only_->to);
   }
 
-  // Returns whether the columns of a separate clock have ended; they may be shorter than the
-  // others.
-  bool has_ended(const Row& row) const {
-    for (std::size_t i = only_ ? only_->from : 0; only_ && i < only_->to; ++i)
-      if (!is_missing(row.cells[i].text)) return false;
-    return only_.has_value();
-  }
-
-  void add(const Row& row, std::size_t index, RawTable& out) {
-    if (has_ended(row)) return;
-    if (has_clock() && !add_time(row, index, out)) return;
-    out.lines.push_back(row.line);
+  void add(SelectedRows& rows, RawTable& out) {
+    if (has_clock()) {
+      const std::optional<RowTime> time = rows.time();
+      if (!time) return;
+      if (std::isnan(time->number)) {
+        ++without_time_;
+        return;
+      }
+      if (clock_.kind() == RowClock::Kind::instants)
+        instants_.push_back(time->instant);
+      else
+        out.time.push_back(time->number);
+    }
+    out.lines.push_back(rows.row().line);
     for (std::size_t i = 0; i < indices_.size(); ++i) {
-      const Cell& cell = row.cells[indices_[i]];
-      const auto number = number_in(cell.text, grid_.dialect.numbers);
-      const bool finite = number && std::isfinite(*number);
-      out.columns[i].values.push_back(finite ? *number * factors_[i] : no_value);
-      if (finite) continue;
-      ++out.columns[i].missing;
-      const bool is_left_out =
-          source_.drop_incomplete && hint_for(cell.text, grid_.dialect.numbers).empty();
-      if (!number && !is_missing(cell.text) && !is_left_out) refuse(row, cell, out.columns[i].name);
+      RawColumn& column = out.columns[i];
+      const double number = rows.number(indices_[i], column.name, true).value_or(no_value);
+      column.values.push_back(number * factors_[i]);
+      column.missing += std::isnan(number) ? 1 : 0;
     }
-  }
-
-  void refuse(const Row& row, const Cell& cell, const std::string& name) {
-    problems_.add(row.line, cell.column, name, config::in_quotes(cell.text), "a number",
-                  hint_for(cell.text, grid_.dialect.numbers));
-  }
-
-  bool add_time(const Row& row, std::size_t index, RawTable& out) {
-    std::size_t column = numbers_.value_or(0);
-    if (period_ > 0) {
-      out.time.push_back(static_cast<double>(index) * period_);
-      return true;
-    }
-    if (stamps_) {
-      if (const auto instant = stamps_->read(row, column)) {
-        if (instants_.empty()) instants_.reserve(grid_.rows_about());
-        instants_.push_back(*instant);
-        return true;
-      }
-    } else if (split_) {
-      if (const auto instant = split_->read(row, grid_.dialect.numbers, column)) {
-        instants_.push_back(*instant);
-        return true;
-      }
-    } else {
-      const auto number = number_in(row.cells[column].text, grid_.dialect.numbers);
-      if (number && std::isfinite(*number)) {
-        out.time.push_back(unwrap_(*number));
-        return true;
-      }
-    }
-    return refuse_time(row, row.cells[column]);
-  }
-
-  bool refuse_time(const Row& row, const Cell& cell) {
-    const std::string hint = hint_for(cell.text, grid_.dialect.numbers);
-    if (source_.drop_incomplete && (is_missing(cell.text) || hint.empty())) {
-      ++without_time_;
-      return false;
-    }
-    problems_.add(row.line, cell.column, "time",
-                  cell.text.empty() ? "an empty cell" : config::in_quotes(cell.text),
-                  stamps_ ? "a date or a time of day as in the other rows" : "a number",
-                  is_missing(cell.text) ? "drop_incomplete=true to leave such rows out" : hint);
-    return false;
   }
 
   void finish_clock(RawTable& out) {
     if (out.lines.empty() || !has_clock()) return;
-    if (stamps_) {
+    if (clock_.stamps()) {
       out.time = since_first(instants_);
       out.instant = instants_.front();
-      out.has_date = stamps_->has_dates();
-      out.zone = stamps_->zone();
-    } else if (split_) {
+      out.has_date = clock_.stamps()->has_dates();
+      out.zone = clock_.stamps()->zone();
+    } else if (clock_.split()) {
       out.time = since_first(instants_);
       out.first = static_cast<double>(instants_.front()) / 1e9;
       if (is_since_1970(out.first)) {
         out.instant = instants_.front();
         out.zone = 0;
       }
-    } else if (numbers_) {
+    } else if (is_numbers()) {
       count_from_first(out);
+      clock_.note_wraps(clock_heading().name, out.notes);
     }
-    merge_rows(out);
     if (source_.spread_times) {
       if (const std::size_t count = spread_times(out.time); count > 0)
         out.notes.push_back(
@@ -366,42 +279,6 @@ class RawReader {
     for (double& t : out.time) t -= late;
   }
 
-  // Merges rows of equal time in which no column has two values: the logger wrote a line for
-  // each of its channels.
-  void merge_rows(RawTable& out) const {
-    std::size_t to = 0;
-    for (std::size_t i = 1; i < out.rows(); ++i) {
-      const bool same =
-          out.time[i] == out.time[to] && std::ranges::all_of(out.columns, [&](const RawColumn& c) {
-            return std::isnan(c.values[i]) || std::isnan(c.values[to]);
-          });
-      if (!same) {
-        ++to;
-        out.time[to] = out.time[i];
-        out.lines[to] = out.lines[i];
-      }
-      for (RawColumn& c : out.columns) {
-        if (same && std::isnan(c.values[i])) continue;
-        c.values[to] = c.values[i];
-      }
-    }
-    const std::size_t merged = out.rows() - (to + 1);
-    if (merged == 0) return;
-    out.time.resize(to + 1);
-    out.lines.resize(to + 1);
-    for (RawColumn& c : out.columns) {
-      c.values.resize(to + 1);
-      c.missing = static_cast<std::size_t>(
-          std::ranges::count_if(c.values, [](double v) { return std::isnan(v); }));
-    }
-    out.notes.push_back(merged_text(merged));
-  }
-
-  void report_wraps(RawTable& out) const {
-    if (unwrap_.wraps() > 0)
-      out.notes.push_back(wraps_text(grid_.headings()[*numbers_].name, unwrap_));
-  }
-
   static bool is_since_1970(double seconds) { return seconds > 1e9 && seconds < 5e9; }
 
   // Converts a clock's numbers to seconds since the first. Times since 1970 also give the start.
@@ -421,11 +298,11 @@ class RawReader {
 
   // Notes times that are all whole seconds: the unit may be milliseconds.
   void note_seconds(RawTable& out) const {
-    if (!numbers_ || slope_ != 1 || source_.dates == "excel" || out.time.size() < 20) return;
+    if (!is_numbers() || slope_ != 1 || source_.dates == "excel" || out.time.size() < 20) return;
     const bool whole = std::ranges::all_of(out.time, [](double t) { return t == std::floor(t); });
     const double step = out.time.back() / static_cast<double>(out.time.size() - 1);
     if (!whole || step < 2) return;
-    const std::string& name = grid_.headings()[*numbers_].name;
+    const std::string& name = clock_heading().name;
     out.notes.push_back(
         fmt::format("{}: a row every {:.4g} s, {:.3g} h in all; if it counts ms, give units.{}=ms",
                     name, step, out.time.back() / 3600, name));
@@ -443,12 +320,8 @@ class RawReader {
   const Grid& grid_;
   const Source& source_;
   std::optional<ClockColumns> only_;
-  Problems problems_;
-  double period_ = 0;  // period of rows with a rate  [s]
-  std::unique_ptr<StampClock> stamps_;
-  std::optional<SplitSeconds> split_;
-  std::optional<std::size_t> numbers_;  // column of a clock of numbers
-  Unwrapper unwrap_;
+  config::Problems problems_;
+  RowClock clock_;
   double slope_ = 1;                    // seconds per unit of the clock
   std::string note_;                    // about the clock
   std::set<std::size_t> of_clock_;      // columns of the clock

@@ -62,6 +62,8 @@ Recorded read_text(const std::string& path, const Mapping& mapping,
   for (const ColumnMapping& c : mapping.columns)
     if (!c.unit.empty()) source.clock_units[c.name] = c.unit;
   RawTable table = read_table(source);
+  if (table.rows() == 0 && !source.where.empty())
+    config::fail({path, 0, 0}, "where", "no row that meets it", "values that some rows have");
   if (table.time.empty())
     config::fail({path, 0, 0}, "time", "no column of times",
                  "one that is called time, t or Zeit, or dates",

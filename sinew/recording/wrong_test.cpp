@@ -300,7 +300,9 @@ TEST(Wrong, RowsAndCellsAreToldByTheirPlace) {
       {"time [s],F [N]\n0,1\n1,broken\n2,3\n3,4\n",
        "lab.csv:3:3: F: found \"broken\"; expected a "
        "number"},
-      {"time [s],F [N]\n0,1\n", "units: found \"G\"; expected time or F", {.units = {{"G", "N"}}}},
+      {"time [s],F [N]\n0,1\n",
+       "units: found \"G\"; expected a column of the file: time, F",
+       {.units = {{"G", "N"}}}},
   });
 }
 

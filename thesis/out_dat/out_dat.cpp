@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 
+#include "sinew/config/problems.h"
 #include "sinew/config/rows.h"
 #include "sinew/run/simulation/recorder.h"
 #include "sinew/units/constants.h"
@@ -110,7 +111,7 @@ Allowed allowed(std::string_view column, double top) {
 }
 
 void read_cell(std::string_view word, std::string_view column, double top, int column_at,
-               Line& line, config::RowProblems& problems) {
+               Line& line, config::Problems& problems) {
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   const bool number =
@@ -119,14 +120,14 @@ void read_cell(std::string_view word, std::string_view column, double top, int c
   const bool good =
       number && value >= may.low && value <= may.high && (!may.whole || value == std::floor(value));
   if (!good)
-    problems.add(line.number, column_at, column, config::in_quotes(word),
+    problems.add(line.number, column_at, std::string(column), config::in_quotes(word),
                  fmt::format("{} from {:.0f} to {:.0f}", may.whole ? "a whole number" : "a number",
                              may.low, may.high));
   line.values.push_back(value);
 }
 
 Line read_line(std::string_view text, int number, const Words& heading, double top,
-               config::RowProblems& problems) {
+               config::Problems& problems) {
   Line line{.number = number, .mode = {}, .values = {}};
   const Words words = words_of(text);
   if (words.size() != heading.size()) {
@@ -145,7 +146,7 @@ Line read_line(std::string_view text, int number, const Words& heading, double t
 // Follows the plan from line to line.
 class PlanWalk {
  public:
-  PlanWalk(const gait::Plan& plan, config::RowProblems& problems)
+  PlanWalk(const gait::Plan& plan, config::Problems& problems)
       : plan_(plan), problems_(problems), period_(std::llround(plan.high_level_period * 1e9)) {}
 
   // Processes a line. A new phase begins where its name changes or the timer restarts.
@@ -192,7 +193,7 @@ class PlanWalk {
   }
 
   const gait::Plan& plan_;
-  config::RowProblems& problems_;
+  config::Problems& problems_;
   std::int64_t period_, start_ns_ = 0, next_ns_ = 0, timer_ = 0;
   std::string mode_;
   std::size_t place_ = plan_.sequence.empty() ? 0 : plan_.sequence.size() - 1;
@@ -316,7 +317,7 @@ signals::Table parse_out_dat(std::string_view text, const std::string& name,
   std::getline(lines, line_text);
   check_heading(line_text, heading, name);
 
-  config::RowProblems problems(name);
+  config::Problems problems(name);
   PlanWalk plan(e.plan, problems);
   TableWriter out(e);
   std::size_t read = 0;

@@ -7,7 +7,6 @@
 #include <random>
 
 #include "sinew/config/reader.h"
-#include "sinew/config/write/documenter.h"
 
 namespace sinew::config::writer_test {
 namespace {
@@ -155,20 +154,6 @@ TEST(Writer, KeepsWhereValuesCameFrom) {
   EXPECT_EQ(find_origin(back, "part.a.inner.length")->source, "calibration");
   EXPECT_TRUE(find_origin(back, "part.a.inner.length")->fit);
   EXPECT_EQ(find_origin(back, "ratio")->source, "default");
-}
-
-TEST(Documenter, RendersATable) {
-  Documenter documenter;
-  Whole whole;
-  fields(documenter, whole);
-  const std::string text = documenter.markdown();
-  EXPECT_NE(text.find("| `part.<name>.inner.length` | m | 0 to 10 m | a \\| bar |"),
-            std::string::npos)
-      << text;
-  EXPECT_NE(text.find("| `pressure` | Pa abs | ≥ 0 Pa abs | of the air |"), std::string::npos);
-  EXPECT_NE(text.find("| `unset` (optional) | m |  |  |"), std::string::npos);
-  EXPECT_NE(text.find("| `law` | \"stop\" or \"zero\" |"), std::string::npos);
-  EXPECT_NE(text.find("`test[].count`"), std::string::npos);
 }
 
 }  // namespace

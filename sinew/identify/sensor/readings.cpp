@@ -63,7 +63,7 @@ class Finder {
         add_sensor(h, layout);
     for (const std::string& name : only) refuse_missing(name, layout);
     if (layout.sensors.empty())
-      config::fail(header(), "sensor", "no column in volts or counts among " + all_names(),
+      config::fail(header(), "sensor", "no column in volts or counts among " + grid_.all_names(),
                    "at least one in addition to " + layout.known_heading->name,
                    "its unit in the header, `gage [V]`, or units.gage=V");
     return layout;
@@ -76,12 +76,6 @@ class Finder {
 
  private:
   config::Location header() const { return {grid_.file, grid_.header_line(), 1}; }
-
-  std::string all_names() const {
-    std::string out;
-    for (const Heading& h : grid_.headings()) out += (out.empty() ? "" : ", ") + h.name;
-    return out;
-  }
 
   units::Dimension dimension(const Heading& h) const {
     const std::string unit = unit_of(h);
@@ -115,7 +109,7 @@ class Finder {
     if (!wanted.empty() && std::ranges::find(names, wanted) == names.end())
       config::fail({"known", 0, 0}, "", config::in_quotes(wanted), config::either(names),
                    config::closest_in_quotes(wanted, names));
-    config::fail(header(), "known quantity", "none among " + all_names(),
+    config::fail(header(), "known quantity", "none among " + grid_.all_names(),
                  "a column of what was set: " + config::either(names),
                  "names.load=NAME with the file's name for it");
   }

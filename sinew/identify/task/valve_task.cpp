@@ -36,18 +36,12 @@ std::string called_in(const Source& source, const std::string& name) {
   return said == source.names.end() ? name : said->second;
 }
 
-std::optional<std::size_t> column_called(const Grid& grid, const std::string& name) {
-  for (std::size_t i = 0; i < grid.headings().size(); ++i)
-    if (grid.headings()[i].is_called(name)) return i;
-  return std::nullopt;
-}
-
 // Returns one source for each recording of a file: a restarted logger begins a new one.
 std::vector<Source> recordings_in(const Source& source) {
   if (source.part != 0 || !source.where.empty()) return {source};
   const Grid grid =
       recording::read_grid(std::string(text_of(source, "measurements as CSV")), source);
-  const auto clock = column_called(grid, called_in(source, "time"));
+  const auto clock = grid.column_called(called_in(source, "time"));
   const std::size_t parts = recording::parts_of(grid, source, clock).size();
   if (parts < 2) return {source};
   std::vector<Source> out(parts, source);
@@ -58,7 +52,7 @@ std::vector<Source> recordings_in(const Source& source) {
 bool has_column_of_volumes(const Source& source) {
   const Grid grid =
       recording::read_grid(std::string(text_of(source, "measurements as CSV")), source);
-  return column_called(grid, called_in(source, "added_volume")).has_value();
+  return grid.column_called(called_in(source, "added_volume")).has_value();
 }
 
 constexpr std::size_t most_samples = 20000, most_of_pulses = 15000;  // longer ones are averaged

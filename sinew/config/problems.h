@@ -1,4 +1,4 @@
-// recording/problems.h - collection of the faults of a table; the first few are reported.
+// config/problems.h - collection of the faults of a file; the first few are reported.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 #include "sinew/config/diagnostics.h"
 
-namespace sinew::recording {
+namespace sinew::config {
 
 class Problems {
  public:
@@ -17,13 +17,13 @@ class Problems {
   void add(int line, int column, std::string key, std::string found, std::string expected,
            std::string try_this = "");
 
-  // Throws config::Error if there are any faults.
+  // Throws Error if there are any faults.
   void finish();
 
  private:
   std::string file_;
-  std::vector<config::Problem> problems_;
+  std::vector<Problem> problems_;
   std::size_t count_ = 0;
 };
 
-}  // namespace sinew::recording
+}  // namespace sinew::config

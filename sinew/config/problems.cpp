@@ -1,10 +1,10 @@
-#include "sinew/recording/problems.h"
+#include "sinew/config/problems.h"
 
 #include <fmt/format.h>
 
 #include <utility>
 
-namespace sinew::recording {
+namespace sinew::config {
 
 namespace {
 
@@ -27,7 +27,7 @@ void Problems::finish() {
   if (problems_.empty()) return;
   if (count_ > problems_.size())
     problems_.back().expected += fmt::format(" (and {} more such)", count_ - problems_.size());
-  throw config::Error(problems_);
+  throw Error(problems_);
 }
 
-}  // namespace sinew::recording
+}  // namespace sinew::config
