@@ -163,8 +163,7 @@ std::vector<std::string> sets_of(const py::object& sets, const std::string& path
 
 std::vector<std::string> sets_without_numbers(const py::object& sets) {
   return sets_of(sets, []() -> const config::Origins& {
-    throw py::type_error(
-        "sets: found a number; expected a text with a unit, \"0.8 lbf in s/rad\"");
+    throw py::type_error("sets: found a number; expected a text with a unit, \"0.8 lbf in s/rad\"");
   });
 }
 
