@@ -1,8 +1,31 @@
 // Data that a plot draws of its columns: every sample in view, or the minimum and maximum of every pixel
 // if there are too many, in the units shown.
 import uPlot from 'uplot';
-import { bucket_size, level_for, pyramid } from './pyramid.js';
 import { index_at } from './samples.js';
+
+const finest = 16;  // smallest bucket
+
+// Returns the size of a bucket with which `samples` samples have at most one bucket per pixel; 0: draw the
+// samples. Sizes are powers of two, so that buckets stay the same while the view is moved.
+export function bucket_size(samples, pixels) {
+  if (samples <= 3 * pixels) return 0;
+  let size = finest;
+  while (samples / size > pixels) size *= 2;
+  return size;
+}
+
+// Returns the minimum and the maximum of values[from] to values[to - 1], the earlier one first; NaN if all
+// are NaN.
+export function extremes(values, from, to) {
+  let low = NaN, high = NaN, at_low = 0, at_high = 0;
+  for (let i = from; i < to; ++i) {
+    const v = values[i];
+    if (v !== v) continue;
+    if (!(v >= low)) low = v, at_low = i;
+    if (!(v <= high)) high = v, at_high = i;
+  }
+  return at_low <= at_high ? [low, high] : [high, low];
+}
 
 const in_unit = (value, { scale, offset }) => (value === value ? (value + offset) * scale : null);
 
@@ -10,7 +33,6 @@ export class Slices {
   // Columns may have different clocks.
   constructor(columns) {
     this.columns = columns;
-    this.pyramids = columns.map(() => null);  // computed when first needed
     const clocks = [...new Set(columns.map((c) => c.time))];
     this.clocks = clocks.map((time) => {
       const lines = columns.map((c, i) => i).filter((i) => columns[i].time === time);
@@ -36,13 +58,9 @@ export class Slices {
   of_clock({ time, lines }, [from, to], pixels, units) {
     const first = Math.max(0, index_at(time, from));
     const last = Math.min(time.length, index_at(time, to) + 2);
-    const level = level_for(last - first, pixels, this.pyramid_of(lines[0]).length);
-    if (level >= 0) return this.buckets(time, lines, first, last, level, units);
+    const size = bucket_size(last - first, pixels);
+    if (size) return this.buckets(time, lines, first, last, size, units);
     return [time.subarray(first, last), ...lines.map((i) => this.samples(i, first, last, units[i]))];
-  }
-
-  pyramid_of(i) {
-    return (this.pyramids[i] ??= pyramid(this.columns[i].values));
   }
 
   samples(i, first, last, unit) {
@@ -52,8 +70,7 @@ export class Slices {
     return line;
   }
 
-  buckets(time, lines, first, last, level, units) {
-    const size = bucket_size(level);
+  buckets(time, lines, first, last, size, units) {
     const from = Math.floor(first / size), to = Math.ceil(last / size);
     const x = new Float64Array(2 * (to - from));
     for (let b = from; b < to; ++b) {
@@ -61,12 +78,9 @@ export class Slices {
       x[2 * (b - from) + 1] = time[Math.min(time.length - 1, b * size + size / 2)];
     }
     return [x, ...lines.map((i) => {
-      const { low, high, first_low } = this.pyramid_of(i)[level];
-      const line = new Array(x.length);
-      for (let b = from; b < to; ++b) {
-        line[2 * (b - from)] = in_unit(first_low[b] ? low[b] : high[b], units[i]);
-        line[2 * (b - from) + 1] = in_unit(first_low[b] ? high[b] : low[b], units[i]);
-      }
+      const { values } = this.columns[i], line = [];
+      for (let b = from; b < to; ++b)
+        for (const v of extremes(values, b * size, Math.min(values.length, (b + 1) * size))) line.push(in_unit(v, units[i]));
       return line;
     })];
   }

@@ -6,9 +6,8 @@ import { deflateSync } from 'node:zlib';
 import { ticks, upright_ticks } from '../src/axis.js';
 import { trace_point } from '../src/chart_shapes.js';
 import { append_stretches, GrowingColumns } from '../src/growing.js';
-import { bucket_size, level_for, pyramid } from '../src/pyramid.js';
 import { between, held, index_at, open_within, read_samples } from '../src/samples.js';
-import { Slices } from '../src/slices.js';
+import { bucket_size, extremes, Slices } from '../src/slices.js';
 import { SvgContext } from '../src/svg_context.js';
 import { number, short_number, unit_of_key, Units, words_of_key } from '../src/units.js';
 
@@ -100,35 +99,31 @@ test('a valve was open within an interval if an edge or the state before shows i
   }
 });
 
-// --- pyramid ---
+// --- buckets ---
 
-test('every level has the least and greatest of its samples', () => {
+test('a bucket has the least and greatest of its samples, in their order', () => {
   const random = random_from(4);
   for (const length of [1, 15, 16, 17, 1000, 4096, 5003]) {
     const values = Float32Array.from({ length }, () => (random() < 0.05 ? NaN : random() - 0.5));
-    pyramid(values).forEach((level, k) => {
-      const size = bucket_size(k);
-      assert.equal(level.count, Math.ceil(length / size));
-      for (let b = 0; b < level.count; ++b) {
-        const part = [...values.subarray(b * size, (b + 1) * size)].map((v, i) => [v, i]).filter(([v]) => v === v);
+    for (let size = 16; size < 2 * length; size *= 2)
+      for (let from = 0; from < length; from += size) {
+        const found = extremes(values, from, Math.min(length, from + size));
+        const part = [...values.subarray(from, from + size)].map((v, i) => [v, i]).filter(([v]) => v === v);
         if (!part.length) {
-          assert.ok(Number.isNaN(level.low[b]) && Number.isNaN(level.high[b]));
+          assert.ok(found.every(Number.isNaN));
           continue;
         }
         const low = part.reduce((a, c) => (c[0] < a[0] ? c : a)), high = part.reduce((a, c) => (c[0] > a[0] ? c : a));
-        assert.equal(level.low[b], low[0]);
-        assert.equal(level.high[b], high[0]);
-        assert.equal(level.first_low[b] === 1, low[1] <= high[1], `order, level ${k}`);
+        assert.deepEqual(found, low[1] <= high[1] ? [low[0], high[0]] : [high[0], low[0]], `${from} of ${length} by ${size}`);
       }
-    });
   }
 });
 
 test('a plot gets all samples where there is room, else at most two per pixel', () => {
   for (const samples of [10, 1800, 1801, 60000, 6000000]) {
-    const level = level_for(samples, 600, 14);
-    if (samples <= 1800) assert.equal(level, -1);
-    else assert.ok(samples / bucket_size(level) <= 600, `${samples}`);
+    const size = bucket_size(samples, 600);
+    if (samples <= 1800) assert.equal(size, 0);
+    else assert.ok(samples / size <= 600, `${samples}`);
   }
 });
 
