@@ -17,8 +17,8 @@ namespace sinew::identify {
 
 namespace {
 
-using report::Chart;
-using Curve = report::ChartCurve;
+using report::Curve;
+using report::Plot;
 
 // Largest number of rows on a page; more only make it slow.
 constexpr std::size_t most_rows = 20000;
@@ -74,14 +74,14 @@ class Maker {
  public:
   explicit Maker(const Report& report) : report_(report), rows_(report.rows) {
     const std::string unit = rows_.unit.empty() ? report.unit : rows_.unit;
-    const report::ChartAxis x{rows_.x, rows_.x_unit};
+    const report::Axis x{rows_.x, rows_.x_unit};
     fit_ = {.title = "Measured and by the model", .x = x, .y = {report.quantity, unit}, .note = ""};
     left_ = {
         .title = "Model less measured", .x = x, .y = {report.quantity, report.unit}, .note = ""};
     if (unit == "Pa abs" || unit == "Pa gauge") left_.y.unit = "Pa diff";
   }
 
-  std::vector<Chart> make() {
+  std::vector<Plot> make() {
     give_colors();
     for (const bool held_out : {false, true}) {
       const auto groups = groups_of(rows_, held_out);
@@ -119,20 +119,20 @@ class Maker {
     const std::string label = held_out ? "held out" : name.empty() ? "measured" : name;
     const int mark = !rows_.venting.empty() && rows_.venting[group.front()] ? triangle : 0;
     fit_.curves.push_back({.label = label,
+                           .xs = x,
+                           .ys = pick(group, [&](std::size_t i) { return measured(i); }),
                            .style = style,
                            .color = color,
-                           .x = x,
-                           .y = pick(group, [&](std::size_t i) { return measured(i); }),
                            .mark = mark});
     if (!told(best)) return;
-    add_line(
-        name, color,
-        {.x = x, .y = pick(group, [&](std::size_t i) { return measured(i) + best.residuals[i]; })});
+    add_line(name, color, {.xs = x, .ys = pick(group, [&](std::size_t i) {
+                                      return measured(i) + best.residuals[i];
+                                    })});
     left_.curves.push_back({.label = label,
+                            .xs = x,
+                            .ys = pick(group, [&](std::size_t i) { return best.residuals[i]; }),
                             .style = style,
                             .color = color,
-                            .x = x,
-                            .y = pick(group, [&](std::size_t i) { return best.residuals[i]; }),
                             .mark = mark});
   }
 
@@ -149,8 +149,8 @@ class Maker {
       return;
     }
     if (!drawn_.insert(name).second) return;
-    rows.x = curve->at;
-    rows.y = curve->value;
+    rows.xs = curve->at;
+    rows.ys = curve->value;
     add_band("95 % band", *curve, curve->half_95);
     add_band("68 % band", *curve, curve->half_68);
     fit_.curves.push_back(std::move(rows));
@@ -162,19 +162,19 @@ class Maker {
     const auto& band = report_.best().band;
     if (!band || rows_.scattered) return;
     PredictedCurve some;
-    const std::size_t stride = 1 + 2 * rows.x.size() / most_of_other;
-    for (std::size_t i = 0; i < rows.y.size(); i += stride) {
-      const auto from = rows.y.begin() + static_cast<std::ptrdiff_t>(i);
+    const std::size_t stride = 1 + 2 * rows.xs.size() / most_of_other;
+    for (std::size_t i = 0; i < rows.ys.size(); i += stride) {
+      const auto from = rows.ys.begin() + static_cast<std::ptrdiff_t>(i);
       const auto to =
-          rows.y.begin() + static_cast<std::ptrdiff_t>(std::min(i + stride, rows.y.size()));
+          rows.ys.begin() + static_cast<std::ptrdiff_t>(std::min(i + stride, rows.ys.size()));
       const auto [low, high] = std::minmax_element(from, to);
-      std::set<std::size_t> places{static_cast<std::size_t>(low - rows.y.begin()),
-                                   static_cast<std::size_t>(high - rows.y.begin())};
+      std::set<std::size_t> places{static_cast<std::size_t>(low - rows.ys.begin()),
+                                   static_cast<std::size_t>(high - rows.ys.begin())};
       if (i == 0) places.insert(0);
-      if (to == rows.y.end()) places.insert(rows.y.size() - 1);
+      if (to == rows.ys.end()) places.insert(rows.ys.size() - 1);
       for (const std::size_t place : places) {
-        some.at.push_back(rows.x[place]);
-        some.value.push_back(rows.y[place]);
+        some.at.push_back(rows.xs[place]);
+        some.value.push_back(rows.ys[place]);
       }
     }
     add_band("95 % band", some, std::vector<double>(some.at.size(), band->half_95));
@@ -183,13 +183,13 @@ class Maker {
 
   void add_band(const std::string& label, const PredictedCurve& curve,
                 const std::vector<double>& half) {
-    Curve about{.label = label, .style = Curve::Style::band, .color = 6, .x = curve.at};
+    Curve about{.label = label, .xs = curve.at, .style = Curve::Style::band, .color = 6};
     Curve apart = about;
     for (std::size_t i = 0; i < half.size(); ++i) {
-      about.y.push_back(curve.value[i] - half[i]);
-      about.y_high.push_back(curve.value[i] + half[i]);
-      apart.y.push_back(-half[i]);
-      apart.y_high.push_back(half[i]);
+      about.ys.push_back(curve.value[i] - half[i]);
+      about.ys_high.push_back(curve.value[i] + half[i]);
+      apart.ys.push_back(-half[i]);
+      apart.ys_high.push_back(half[i]);
     }
     fit_.curves.push_back(std::move(about));
     left_.curves.push_back(std::move(apart));
@@ -204,32 +204,32 @@ class Maker {
                   .color = 6,
                   .mark = mark++};
       for (const OmittedRow& row : omitted.rows) {
-        curve.x.push_back(row.at);
-        curve.y.push_back(row.measured);
+        curve.xs.push_back(row.at);
+        curve.ys.push_back(row.measured);
       }
       fit_.curves.push_back(std::move(curve));
     }
   }
 
   // Returns the chart of predicted over measured values; perfect predictions are on the diagonal.
-  Chart against_measured() const {
-    Chart out = fit_;
+  Plot against_measured() const {
+    Plot out = fit_;
     out.title = "By the model against measured";
     out.x = {report_.quantity + ", measured", out.y.unit};
-    out.y.label += ", by the model";
+    out.y.name += ", by the model";
     std::erase_if(out.curves, [](const Curve& c) { return c.style != Curve::Style::line; });
     for (std::size_t k = 0; k < out.curves.size(); ++k) {  // each line follows its points
       Curve& c = out.curves[k];
       const Curve& points = fit_.curves[2 * k];
       c = {.label = points.label,
+           .xs = points.ys,
+           .ys = c.ys,
            .style = points.style,
-           .color = points.color,
-           .x = points.y,
-           .y = c.y};
+           .color = points.color};
     }
     const auto [least, most] = std::ranges::minmax(rows_.measured);
     out.curves.push_back(
-        {.label = "as measured", .color = 6, .x = {least, most}, .y = {least, most}});
+        {.label = "as measured", .xs = {least, most}, .ys = {least, most}, .color = 6});
     return out;
   }
 
@@ -248,10 +248,10 @@ class Maker {
         Curve curve{.label = other.model,
                     .style = Curve::Style::other,
                     .color = static_cast<int>(law),
-                    .dash = dash_of(law),
+                    .strokes = dash_of(law),
                     .hidden = true};
-        curve.x = pick(some, [&](std::size_t i) { return rows_.at[i]; });
-        curve.y = pick(some, [&](std::size_t i) { return measured(i) + other.residuals[i]; });
+        curve.xs = pick(some, [&](std::size_t i) { return rows_.at[i]; });
+        curve.ys = pick(some, [&](std::size_t i) { return measured(i) + other.residuals[i]; });
         fit_.curves.push_back(std::move(curve));
       }
       ++law;
@@ -260,15 +260,15 @@ class Maker {
 
   const Report& report_;
   const Rows& rows_;
-  Chart fit_, left_;
+  Plot fit_, left_;
   std::map<std::string, int> colors_;
   std::set<std::string> drawn_;  // groups with a curve
 };
 
 }  // namespace
 
-std::vector<Chart> charts_of(const Report& report) {
-  return report.rows.size() == 0 ? std::vector<Chart>{} : Maker(report).make();
+std::vector<Plot> charts_of(const Report& report) {
+  return report.rows.size() == 0 ? std::vector<Plot>{} : Maker(report).make();
 }
 
 std::string page(const Page& page) {

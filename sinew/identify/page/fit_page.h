@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "sinew/identify/contest/fit.h"
-#include "sinew/report/page/charts.h"
+#include "sinew/report/page/plot.h"
 
 namespace sinew::identify {
 
 // Returns charts of the measurements with the models, and of the residuals; empty if the report has
 // no rows.
-std::vector<report::Chart> charts_of(const Report& report);
+std::vector<report::Plot> charts_of(const Report& report);
 
 struct Page {
   std::string title, version;          // version of the program

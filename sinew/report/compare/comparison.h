@@ -20,10 +20,10 @@
 #include "sinew/analysis/verdict/compare.h"
 #include "sinew/analysis/verdict/reported.h"
 #include "sinew/config/node.h"
-#include "sinew/report/page/charts.h"
 #include "sinew/report/page/page.h"
 #include "sinew/report/page/panels.h"
 #include "sinew/report/page/parameters.h"
+#include "sinew/report/page/plot.h"
 #include "sinew/report/page/scene.h"
 #include "sinew/report/page/stand.h"
 #include "sinew/signals/table.h"
@@ -69,11 +69,11 @@ struct ComparedRun {
   double first = 0, last = 0;      // aligned times [s]
   signals::Table logged, derived;  // at the aligned times
   signals::Table drawn;            // series of the drawings
-  std::vector<Panel> panels;
-  std::vector<Chart> charts;  // charts of the test stand
-  Scene scene;                // drawing of the machine; empty for a stand, or without angles
-  Stand stand;                // drawing of the stand; empty for a machine
-  std::string phases;         // JSON (content.h)
+  std::vector<Plot> panels;
+  std::vector<Plot> charts;  // charts of the test stand
+  Scene scene;               // drawing of the machine; empty for a stand, or without angles
+  Stand stand;               // drawing of the stand; empty for a machine
+  std::string phases;        // JSON (content.h)
   analysis::Summary summary;
   std::vector<analysis::Verdict> verdicts;
   std::vector<Parameter> parameters;

@@ -183,20 +183,21 @@ class RunSamples {
 // Returns a plot for every line of the first run's panels that another run has too.
 Json panels_of(const Comparison& c, RunSamples& samples) {
   Json out = Json::array();
-  for (const Panel& panel : c.runs.front().panels)
-    for (const Line& line : panel.lines) {
+  for (const Plot& panel : c.runs.front().panels)
+    for (const Curve& line : panel.curves) {
+      const Channel& channel = line.y_channel;
       const bool common = std::ranges::any_of(c.channels, [&](const ChannelRow& row) {
-        return row.channel.topic == line.channel.topic && row.channel.field == line.channel.field;
+        return row.channel.topic == channel.topic && row.channel.field == channel.field;
       });
       if (!common) continue;
       out.push_back({{"group", panel.group},
                      {"title", panel.title},
-                     {"unit", panel.unit},
+                     {"unit", panel.y.unit},
                      {"label", line.label},
-                     {"topic", line.channel.topic},
-                     {"field", line.channel.field},
-                     {"main", line.style == Line::Style::measured}});
-      samples.put(line.channel, out.back());
+                     {"topic", channel.topic},
+                     {"field", channel.field},
+                     {"main", line.kind != Curve::Kind::desired && !line.hidden}});
+      samples.put(channel, out.back());
     }
   return out;
 }
@@ -204,13 +205,13 @@ Json panels_of(const Comparison& c, RunSamples& samples) {
 // Returns the first run's charts, with the curves of all runs that have a chart of the same title.
 Json charts_of(const Comparison& c, RunSamples& samples) {
   Json out = Json::array();
-  for (const Chart& first : c.runs.front().charts) {
+  for (const Plot& first : c.runs.front().charts) {
     Json chart, curves = Json::array();
     for (std::size_t i = 0; i < c.runs.size(); ++i)
-      for (const Chart& own : c.runs[i].charts) {
+      for (const Plot& own : c.runs[i].charts) {
         if (own.title != first.title) continue;
         Columns columns = samples.columns(i);
-        chart = Json::parse(to_json(std::vector{own}, columns))[0];
+        chart = Json::parse(charts_json({own}, columns))[0];
         for (Json& curve : chart["curves"]) {
           curve["run"] = i;
           curves.push_back(std::move(curve));

@@ -165,12 +165,16 @@ std::string point_of(const Plot& plot, std::size_t c) {
 std::string drawn_with(const Plot& plot, std::size_t c) {
   switch (plot.curves[c].style) {
     case Style::line:
+    case Style::other:
+    case Style::band:
       return "lines " + line_of(plot, c);
     case Style::steps:
       return "steps " + line_of(plot, c);
     case Style::marked:
       return "linespoints " + line_of(plot, c) + " " + point_of(plot, c);
     case Style::points:
+    case Style::held_out:
+    case Style::left_out:
       return "points linewidth 0.6 linecolor rgb '" + std::string(color_style_of(plot, c).color) +
              "' " + point_of(plot, c);
     case Style::bars:

@@ -48,35 +48,35 @@ class Maker {
   // The faults that the run had, up to its end  [s].
   void shade(const std::vector<analysis::MachineFault>& faults, double end);
   // Adds the figure of a panel, without its hidden lines.
-  void panel(const Panel& panel);
+  void panel(const Plot& panel);
   // Returns the lines of a panel as plots, each with as many lines as there are colors. Plots
   // without samples are left out.
-  std::vector<Plot> plots(const Panel& panel) const;
+  std::vector<Plot> plots(const Plot& panel) const;
   // Returns the end of all captions of the run: stance, faults, and the definitions of the lines.
-  std::string notes(const Panel& panel) const;
+  std::string notes(const Plot& panel) const;
   // Adds a figure under a unique name, unless it is empty.
   void finish(Figure figure);
   // Adds a figure of curves of y over x, without those that have no samples.
   void over(const std::string& name, const std::string& title, const Axis& x, const Axis& y,
             std::vector<Curve> curves, bool equal_scale, const std::string& caption);
-  Curve pair(const std::string& label, const Channel& x, const Channel& y,
-             const units::ShownUnit& x_unit, const units::ShownUnit& y_unit,
-             Curve::Kind kind) const;
+  // Returns a curve in these units, with numbers in place of its channels. y is held between its
+  // samples.
+  Curve in_numbers(Curve curve, const units::ShownUnit& x, const units::ShownUnit& y) const;
   // Returns the shown unit for numbers of that size  [SI].
   units::ShownUnit unit(std::string_view of, double largest) const {
     return options_.units.of(of, largest, atmosphere_);
   }
+  // Returns the greatest magnitude of the y of curves  [SI].
+  double largest(const std::vector<Curve>& curves) const;
   double largest(const Channel& channel) const;
-  Curve::Kind kind() const { return about_.kind; }
   const RunDescription& words() const { return about_; }
 
   std::vector<Figure> list;
 
  private:
   bool shown(double seconds) const { return seconds >= options_.from && seconds <= options_.to; }
-  Curve curve(const Line& line, const units::ShownUnit& unit, bool steps) const;
   std::string description(const Channel& channel) const;
-  std::string meanings(const Panel& panel) const;
+  std::string meanings(const Plot& panel) const;
 
   const Channels& channels_;
   const RunDescription about_;
@@ -145,20 +145,6 @@ void Maker::shade(const std::vector<analysis::MachineFault>& faults, double end)
   broken_ = fmt::format("{}", fmt::join(words, ", "));
 }
 
-Curve Maker::curve(const Line& line, const units::ShownUnit& unit, bool steps) const {
-  Curve out{.label = line.label, .kind = about_.kind, .color = line.color, .source = about_.source};
-  if (line.style == Line::Style::desired) out.kind = Kind::desired;
-  if (steps) out.style = Curve::Style::steps;
-  const Samples samples = channels_.find(line.channel);
-  for (std::size_t i = 0; i < samples.values->size(); ++i) {
-    const double t = seconds_of((*samples.time_ns)[i]);
-    if (!shown(t)) continue;
-    out.xs.push_back(t);
-    out.ys.push_back(unit.of((*samples.values)[i]));
-  }
-  return out;
-}
-
 double size_of(const signals::Column& values) {
   double out = 0;
   for (const double v : values)
@@ -171,19 +157,33 @@ double Maker::largest(const Channel& channel) const {
   return samples ? size_of(*samples.values) : 0;
 }
 
-// Returns y over x at the times of x; y is held between its samples.
-Curve Maker::pair(const std::string& label, const Channel& x, const Channel& y,
-                  const units::ShownUnit& x_unit, const units::ShownUnit& y_unit, Kind kind) const {
-  Curve out{.label = label, .kind = kind, .source = about_.source};
-  const Samples a = channels_.find(x), b = channels_.find(y);
-  if (!a || !b) return out;
-  const analysis::Column held = analysis::held(*b.time_ns, *b.values, *a.time_ns);
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    if (!shown(seconds_of((*a.time_ns)[i]))) continue;
-    out.xs.push_back(x_unit.of((*a.values)[i]));
-    out.ys.push_back(y_unit.of(held[i]));
-  }
+double Maker::largest(const std::vector<Curve>& curves) const {
+  double out = 0;
+  for (const Curve& c : curves) out = std::max({out, size_of(c.ys), largest(c.y_channel)});
   return out;
+}
+
+Curve Maker::in_numbers(Curve curve, const units::ShownUnit& x, const units::ShownUnit& y) const {
+  curve.source = about_.source;
+  if (curve.kind != Kind::desired) curve.kind = about_.kind;
+  if (curve.y_channel.is_empty()) {
+    for (double& value : curve.xs) value = x.of(value);
+    for (double& value : curve.ys) value = y.of(value);
+    return curve;
+  }
+  const bool over_time = curve.x_channel.is_empty();
+  const Samples ys = channels_.find(curve.y_channel);
+  const Samples xs = over_time ? ys : channels_.find(curve.x_channel);
+  if (!xs || !ys) return curve;
+  analysis::Column held;
+  if (!over_time) held = analysis::held(*ys.time_ns, *ys.values, *xs.time_ns);
+  for (std::size_t i = 0; i < xs.values->size(); ++i) {
+    const double t = seconds_of((*xs.time_ns)[i]);
+    if (!shown(t)) continue;
+    curve.xs.push_back(over_time ? t : x.of((*xs.values)[i]));
+    curve.ys.push_back(y.of(over_time ? (*ys.values)[i] : held[i]));
+  }
+  return curve;
 }
 
 std::string Maker::description(const Channel& channel) const {
@@ -195,10 +195,10 @@ std::string Maker::description(const Channel& channel) const {
 
 // Returns the definitions of lines: "hip, knee: measured, by the controller's scale. hip desired:
 // …"
-std::string Maker::meanings(const Panel& panel) const {
+std::string Maker::meanings(const Plot& panel) const {
   std::vector<std::pair<std::string, std::vector<std::string>>> by_text;
-  for (const Line& line : panel.lines) {
-    const std::string text = description(line.channel);
+  for (const Curve& line : panel.curves) {
+    const std::string text = description(line.y_channel);
     if (text.empty()) continue;
     const auto at = std::ranges::find(by_text, text, [](const auto& entry) { return entry.first; });
     if (at == by_text.end())
@@ -231,23 +231,20 @@ std::string in_sentence(std::string title) {
   return title;
 }
 
-std::string Maker::notes(const Panel& panel) const {
+std::string Maker::notes(const Plot& panel) const {
   std::string out;
-  if (std::ranges::any_of(panel.lines,
-                          [](const Line& l) { return l.style == Line::Style::desired; }))
+  if (std::ranges::any_of(panel.curves, [](const Curve& c) { return c.kind == Kind::desired; }))
     out += " Dotted: desired.";
   if (!stance_.empty()) out += " Shaded: stance by plan.";
   if (!broken_.empty()) out += " Between red lines, broken on purpose: " + broken_ + ".";
   return out + meanings(panel);
 }
 
-std::vector<Plot> Maker::plots(const Panel& panel) const {
-  double size = 0;
-  for (const Line& line : panel.lines) size = std::max(size, largest(line.channel));
-  const units::ShownUnit unit = this->unit(panel.unit, size);
+std::vector<Plot> Maker::plots(const Plot& panel) const {
+  const units::ShownUnit unit = this->unit(panel.y.unit, largest(panel.curves));
   const bool steps = panel.group == "Valves";
   std::map<int, Plot> parts;
-  for (const Line& line : panel.lines) {
+  for (const Curve& line : panel.curves) {
     const int part = line.color / most_colors;
     Plot& plot = parts[part];
     plot.name = std::to_string(part + 1);
@@ -255,7 +252,8 @@ std::vector<Plot> Maker::plots(const Panel& panel) const {
     plot.y = axis_of(in_sentence(panel.title), unit);
     plot.spans = stance_;
     plot.spans.insert(plot.spans.end(), faults_.begin(), faults_.end());
-    plot.curves.push_back(curve(line, unit, steps));
+    plot.curves.push_back(in_numbers(line, {}, unit));
+    if (steps) plot.curves.back().style = Curve::Style::steps;
     if (plot.curves.back().xs.empty()) plot.curves.pop_back();
   }
   std::vector<Plot> out;
@@ -264,10 +262,10 @@ std::vector<Plot> Maker::plots(const Panel& panel) const {
   return out;
 }
 
-void Maker::panel(const Panel& all) {
-  Panel panel = all;
-  std::erase_if(panel.lines, [](const Line& l) { return l.style == Line::Style::hidden; });
-  if (panel.lines.empty()) return;
+void Maker::panel(const Plot& all) {
+  Plot panel = all;
+  std::erase_if(panel.curves, [](const Curve& c) { return c.hidden; });
+  if (panel.curves.empty()) return;
   Figure figure{.name = file_name_of(panel.title), .title = panel.title};
   figure.caption = fmt::format("{} of {}, {}.", panel.title, about_.run, about_.source);
   figure.caption += notes(panel);
@@ -316,21 +314,21 @@ std::vector<const signals::Series*> topics_in(const Channels& channels, const Ch
 
 // Position of a channel in the panels; nullptr for both if no panel has it.
 struct PanelLine {
-  const Panel* panel = nullptr;
-  const Line* line = nullptr;
+  const Plot* panel = nullptr;
+  const Curve* line = nullptr;
 };
 
-PanelLine find_line(const std::vector<Panel>& panels, const Channel& channel) {
-  for (const Panel& panel : panels)
-    for (const Line& line : panel.lines)
-      if (same(line.channel, channel)) return {&panel, &line};
+PanelLine find_line(const std::vector<Plot>& panels, const Channel& channel) {
+  for (const Plot& panel : panels)
+    for (const Curve& line : panel.curves)
+      if (same(line.y_channel, channel)) return {&panel, &line};
   return {};
 }
 
-const Line* desired_of(const PanelLine& of) {
-  if (!of.panel || of.line->style == Line::Style::desired) return nullptr;
-  for (const Line& line : of.panel->lines)
-    if (line.style == Line::Style::desired && line.color == of.line->color) return &line;
+const Curve* desired_of(const PanelLine& of) {
+  if (!of.panel || of.line->kind == Kind::desired) return nullptr;
+  for (const Curve& line : of.panel->curves)
+    if (line.kind == Kind::desired && line.color == of.line->color) return &line;
   return nullptr;
 }
 
@@ -345,36 +343,35 @@ std::string words_in(std::string topic) {
 // One chosen plot as panels, one for each unit.
 class Part {
  public:
-  Part(const Channels& channels, const std::vector<Panel>& panels, const ChosenChannels& of)
+  Part(const Channels& channels, const std::vector<Plot>& panels, const ChosenChannels& of)
       : channels_(channels), panels_(panels), topics_(topics_in(channels, of)) {
     for (const signals::Series* s : topics_)
       for (const signals::Field& field : s->topic.fields) add({s->topic.name, field.name});
   }
-  std::vector<Panel> list;
+  std::vector<Plot> list;
 
  private:
   void add(const Channel& channel) {
     const Samples samples = channels_.find(channel);
     if (!samples) return;
     const PanelLine at = find_line(panels_, channel);
-    Panel& panel = panel_for(at, channel, at.panel ? at.panel->unit : samples.unit);
+    Plot& panel = panel_for(at, channel, at.panel ? at.panel->y.unit : samples.unit);
     const auto there = [&](const Channel& c) {
-      return std::ranges::any_of(panel.lines, [&](const Line& l) { return same(l.channel, c); });
+      return std::ranges::any_of(panel.curves,
+                                 [&](const Curve& l) { return same(l.y_channel, c); });
     };
     if (there(channel)) return;
-    const bool is_desired = at.line && at.line->style == Line::Style::desired;
-    const int color = colors_of(panel);
-    panel.lines.push_back({at.line ? at.line->label : label_of(channel), channel, color,
-                           is_desired ? Line::Style::desired : Line::Style::measured});
-    const Line* desired = desired_of(at);
-    if (desired && channels_.has(desired->channel) && !there(desired->channel))
-      panel.lines.push_back({desired->label, desired->channel, color, Line::Style::desired});
-  }
-
-  static int colors_of(const Panel& panel) {
-    int out = 0;
-    for (const Line& line : panel.lines) out = std::max(out, line.color + 1);
-    return out;
+    int color = 0;
+    for (const Curve& line : panel.curves) color = std::max(color, line.color + 1);
+    const bool is_desired = at.line && at.line->kind == Kind::desired;
+    panel.curves.push_back({.label = at.line ? at.line->label : label_of(channel),
+                            .kind = is_desired ? Kind::desired : Kind::computed,
+                            .color = color,
+                            .y_channel = channel});
+    const Curve* desired = desired_of(at);
+    if (!desired || !channels_.has(desired->y_channel) || there(desired->y_channel)) return;
+    panel.curves.push_back(*desired);
+    panel.curves.back().color = color;
   }
 
   std::string label_of(const Channel& channel) const {
@@ -384,24 +381,24 @@ class Part {
 
   // Returns the panel of a unit, creating it if it is new. Its title is that of the channel's
   // panel, or the end of its topic.
-  Panel& panel_for(const PanelLine& at, const Channel& channel, const std::string& unit) {
+  Plot& panel_for(const PanelLine& at, const Channel& channel, const std::string& unit) {
     const std::string title = at.panel && at.panel->title.find("channels") == std::string::npos
                                   ? at.panel->title
                                   : words_in(channel.topic.substr(channel.topic.rfind('/') + 1));
-    for (Panel& panel : list)
-      if (panel.unit == unit) {
+    for (Plot& panel : list)
+      if (panel.y.unit == unit) {
         if (panel.title != title) panel.title = "value";
         return panel;
       }
     // Values that hold until the next one are drawn as steps.
     const bool steps =
         signals::is_of_valve(channel.topic) || (at.panel && at.panel->group == "Valves");
-    list.push_back({steps ? "Valves" : "", title, unit, {}});
+    list.push_back({.title = title, .y = {.unit = unit}, .group = steps ? "Valves" : ""});
     return list.back();
   }
 
   const Channels& channels_;
-  const std::vector<Panel>& panels_;
+  const std::vector<Plot>& panels_;
   const std::vector<const signals::Series*> topics_;
 };
 
@@ -412,19 +409,19 @@ std::string name_for(const ChosenFigure& chosen) {
   return file_name_of(out);
 }
 
-Figure figure_of(const Maker& make, const Channels& channels, const std::vector<Panel>& panels,
+Figure figure_of(const Maker& make, const Channels& channels, const std::vector<Plot>& panels,
                  const ChosenFigure& chosen) {
   Figure figure{.name = name_for(chosen)};
-  Panel all;  // all lines, for the notes
+  Plot all;  // all lines, for the notes
   for (const ChosenChannels& part : chosen) {
     const Part made(channels, panels, part);
-    for (const Panel& panel : made.list) {
+    for (const Plot& panel : made.list) {
       for (Plot& plot : make.plots(panel)) {
         plot.name = fmt::format("{}-{}", figure.plots.size() + 1, file_name_of(panel.title));
         figure.plots.push_back(std::move(plot));
       }
       figure.title += (figure.title.empty() ? "" : ", ") + in_sentence(panel.title);
-      all.lines.insert(all.lines.end(), panel.lines.begin(), panel.lines.end());
+      all.curves.insert(all.curves.end(), panel.curves.begin(), panel.curves.end());
     }
   }
   if (!figure.title.empty() && figure.title[0] >= 'a' && figure.title[0] <= 'z')
@@ -439,7 +436,7 @@ Figure figure_of(const Maker& make, const Channels& channels, const std::vector<
 // channels are those of `panels`; a channel that no panel has is named after its topic. Parts
 // without channels in the run are left out.
 std::vector<Figure> channel_figures(Maker& make, const Channels& channels,
-                                    const std::vector<Panel>& panels,
+                                    const std::vector<Plot>& panels,
                                     const std::vector<ChosenFigure>& chosen) {
   for (const ChosenFigure& one : chosen) make.finish(figure_of(make, channels, panels, one));
   return std::move(make.list);
@@ -459,49 +456,37 @@ void add_foot_path(Maker& make, const Channels& channels, const std::string& leg
   const ShownUnit unit =
       make.unit("m", std::max(make.largest({which, "x"}), make.largest({which, "y"})));
   const auto path = [&](const char* label, const std::string& topic, Kind kind) {
-    return make.pair(label, {topic, "x"}, {topic, "y"}, unit, unit, kind);
+    return make.in_numbers(
+        {.label = label, .kind = kind, .x_channel = {topic, "x"}, .y_channel = {topic, "y"}}, unit,
+        unit);
   };
   make.over(leg.empty() ? "foot-path" : "foot-path-" + leg,
             leg.empty() ? "Foot path" : "Foot path of leg " + leg, axis_of("x forward", unit),
             axis_of("y up", unit),
-            {path("actual", which, make.kind()), once(path("desired", desired, Kind::desired))},
+            {path("actual", which, Kind::computed), once(path("desired", desired, Kind::desired))},
             true,
             which == measured
                 ? " Of the ankle about the first joint, from measured angles; the desired one once."
                 : " Of the ankle about the first joint, as simulated; the desired one once.");
 }
 
-// Returns a curve of a chart, in the units of its axes.
-Curve charted(const Maker& make, const ChartCurve& from, const ShownUnit& x, const ShownUnit& y) {
-  Curve out = from.x_channel.is_empty()
-                  ? Curve{.label = from.label, .xs = from.x, .ys = from.y, .kind = make.kind()}
-                  : make.pair(from.label, from.x_channel, from.y_channel, x, y, make.kind());
-  out.color = from.color;
-  if (from.style != ChartCurve::Style::line) out.style = Curve::Style::points;
-  if (!from.x_channel.is_empty()) return out;
-  for (double& value : out.xs) value = x.of(value);
-  for (double& value : out.ys) value = y.of(value);
-  return out;
-}
-
-void add_chart(Maker& make, const Chart& chart) {
-  double x_size = 0, y_size = 0;
-  for (const ChartCurve& c : chart.curves) {
-    x_size = std::max({x_size, size_of(c.x), make.largest(c.x_channel)});
-    y_size = std::max({y_size, size_of(c.y), make.largest(c.y_channel)});
-  }
-  const ShownUnit x = make.unit(chart.x.unit, x_size), y = make.unit(chart.y.unit, y_size);
+void add_chart(Maker& make, const Plot& chart) {
+  double x_size = 0;
+  for (const Curve& c : chart.curves)
+    x_size = std::max({x_size, size_of(c.xs), make.largest(c.x_channel)});
+  const ShownUnit x = make.unit(chart.x.unit, x_size);
+  const ShownUnit y = make.unit(chart.y.unit, make.largest(chart.curves));
   std::vector<Curve> curves;
-  for (const ChartCurve& c : chart.curves) {
-    Curve curve = charted(make, c, x, y);
+  for (const Curve& c : chart.curves) {
+    Curve curve = make.in_numbers(c, x, y);
     // Points without a label belong to the line before them.
     if (!curves.empty() && curve.label.empty() && curve.xs == curves.back().xs)
       curves.back().style = Curve::Style::marked;
     else
       curves.push_back(std::move(curve));
   }
-  make.over(file_name_of(chart.title), chart.title, axis_of(in_sentence(chart.x.label), x),
-            axis_of(in_sentence(chart.y.label), y), std::move(curves), false, "");
+  make.over(file_name_of(chart.title), chart.title, axis_of(in_sentence(chart.x.name), x),
+            axis_of(in_sentence(chart.y.name), y), std::move(curves), false, "");
 }
 
 }  // namespace
@@ -548,13 +533,13 @@ std::vector<Figure> run_figures(const Run& run, const RunFigureOptions& options)
     const signals::Times& time = *channels.find(stand_of_run.length).time_ns;
     if (!time.empty()) make.shade(machine.faults, seconds_of(time.back()));
   }
-  const std::vector<Panel> all = panels(channels, machine);
+  const std::vector<Plot> all = panels(channels, machine);
   if (!options.channels.empty()) return channel_figures(make, channels, all, options.channels);
-  for (const Panel& panel : all) make.panel(panel);
+  for (const Plot& panel : all) make.panel(panel);
   for (const robot::LegParts& leg : robot::legs_of(machine.robot))
     add_foot_path(make, channels, leg.name);
   if (machine.stand)
-    for (const Chart& chart : stand_charts(channels, stand_of_run)) add_chart(make, chart);
+    for (const Plot& chart : stand_charts(channels, stand_of_run)) add_chart(make, chart);
   return std::move(make.list);
 }
 

@@ -264,11 +264,11 @@ Content content(const Run& run) {
   if (!summary.faults.empty()) json.put("faults", to_json(summary.faults, end_of(channels)));
   if (const std::vector<PageChange> changes = changes_of(run.resolved); !changes.empty())
     json.put("changes", to_json(changes));
-  json.put("panels", to_json(panels(channels, machine), columns));
+  json.put("panels", panels_json(panels(channels, machine), columns));
   json.put("scene", to_json(scene_of_run, columns));
   if (machine.stand) {
     json.put("stand", to_json(stand_of_run, columns));
-    json.put("charts", to_json(stand_charts(channels, stand_of_run), columns));
+    json.put("charts", charts_json(stand_charts(channels, stand_of_run), columns));
   }
   std::vector<analysis::Warning> warnings = end_warning(run);
   std::ranges::move(omission_warning(blob, channels, record.stretches().size()),

@@ -15,9 +15,9 @@
 #include "sinew/analysis/warnings.h"
 #include "sinew/config/shown_units.h"
 #include "sinew/report/page/channels.h"
-#include "sinew/report/page/charts.h"
 #include "sinew/report/page/panels.h"
 #include "sinew/report/page/parameters.h"
+#include "sinew/report/page/plot.h"
 #include "sinew/report/page/scene.h"
 #include "sinew/report/page/stand.h"
 
@@ -100,10 +100,10 @@ class Columns {
 };
 
 // Return JSON; a channel is the index of its column, or null.
-std::string to_json(const std::vector<Panel>& panels, Columns& columns);
+std::string panels_json(const std::vector<Plot>& panels, Columns& columns);  // over time
+std::string charts_json(const std::vector<Plot>& charts, Columns& columns);
 std::string to_json(const Scene& scene, Columns& columns);  // null if it is empty
 std::string to_json(const Stand& stand, Columns& columns);  // null if it is empty
-std::string to_json(const std::vector<Chart>& charts, Columns& columns);
 std::string to_json(const std::vector<Parameter>& parameters);
 std::string to_json(const std::vector<analysis::Warning>& warnings);
 // `end` is that of the run [s].

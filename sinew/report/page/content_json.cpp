@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sinew/json/json.h"
@@ -22,26 +23,19 @@ Json column_of(const Channel& channel, Columns& columns, Blob::As as = Blob::As:
 
 Json point(Point p) { return Json::array({p.x, p.y}); }
 
-std::string_view word(Line::Style style) {
-  switch (style) {
-    case Line::Style::measured:
-      return "full";
-    case Line::Style::desired:
-      return "dashed";
-    case Line::Style::hidden:
-      return "hidden";
-  }
-  return "";
+// Returns the style of a line over time.
+std::string_view style_over_time(const Curve& c) {
+  return c.hidden ? "hidden" : c.kind == Curve::Kind::desired ? "dashed" : "full";
 }
 
-std::string_view word(ChartCurve::Style style) {
-  using enum ChartCurve::Style;
-  return style == line       ? "line"
-         : style == points   ? "points"
+std::string_view word(Curve::Style style) {
+  using enum Curve::Style;
+  return style == points     ? "points"
          : style == held_out ? "held out"
          : style == left_out ? "left out"
          : style == other    ? "other line"
-                             : "band";
+         : style == band     ? "band"
+                             : "line";
 }
 
 std::string_view word(Stand::Load load) {
@@ -57,7 +51,7 @@ std::string_view word(Stand::Air air) {
                             : "3-way";
 }
 
-Json axis_of(const ChartAxis& axis) { return {{"label", axis.label}, {"unit", axis.unit}}; }
+Json json_of(const Axis& axis) { return {{"label", axis.name}, {"unit", axis.unit}}; }
 
 // Returns numbers with the digits that a picture can show, or the index of a channel's column.
 Json numbers_of(const std::vector<double>& numbers, const Channel& channel, Columns& columns) {
@@ -68,12 +62,12 @@ Json numbers_of(const std::vector<double>& numbers, const Channel& channel, Colu
   return out;
 }
 
-Json curve_of(const ChartCurve& c, Columns& columns) {
-  Json out = {{"label", c.label}, {"style", word(c.style)}, {"color", c.color}};
-  out["x"] = numbers_of(c.x, c.x_channel, columns);
-  out["y"] = numbers_of(c.y, c.y_channel, columns);
-  if (!c.y_high.empty()) out["y_high"] = numbers_of(c.y_high, {}, columns);
-  if (!c.dash.empty()) out["dash"] = c.dash;
+Json curve_of(const Curve& c, Columns& columns) {
+  Json out = {{"label", c.label}, {"style", word(c.style)}, {"color", std::max(c.color, 0)}};
+  out["x"] = numbers_of(c.xs, c.x_channel, columns);
+  out["y"] = numbers_of(c.ys, c.y_channel, columns);
+  if (!c.ys_high.empty()) out["y_high"] = numbers_of(c.ys_high, {}, columns);
+  if (!c.strokes.empty()) out["dash"] = c.strokes;
   if (c.mark != 0) out["mark"] = c.mark;
   if (c.bold) out["bold"] = true;
   if (c.hidden) out["hidden"] = true;
@@ -149,20 +143,20 @@ Json vector_of(const Channel& x, Columns& columns) {
 
 }  // namespace
 
-std::string to_json(const std::vector<Panel>& panels, Columns& columns) {
+std::string panels_json(const std::vector<Plot>& panels, Columns& columns) {
   Json out = Json::array();
-  for (const Panel& p : panels) {
+  for (const Plot& p : panels) {
     Json lines = Json::array();
-    for (const Line& l : p.lines) {
-      lines.push_back({{"label", l.label},
-                       {"topic", l.channel.topic},
-                       {"column", column_of(l.channel, columns, Blob::As::line)},
-                       {"color", l.color},
-                       {"style", word(l.style)}});
-      if (l.channel.field != "value") lines.back()["field"] = l.channel.field;
+    for (const Curve& c : p.curves) {
+      lines.push_back({{"label", c.label},
+                       {"topic", c.y_channel.topic},
+                       {"column", column_of(c.y_channel, columns, Blob::As::line)},
+                       {"color", c.color},
+                       {"style", style_over_time(c)}});
+      if (c.y_channel.field != "value") lines.back()["field"] = c.y_channel.field;
     }
     out.push_back(
-        {{"group", p.group}, {"title", p.title}, {"unit", p.unit}, {"lines", std::move(lines)}});
+        {{"group", p.group}, {"title", p.title}, {"unit", p.y.unit}, {"lines", std::move(lines)}});
   }
   return text_of(out);
 }
@@ -217,14 +211,14 @@ std::string to_json(const Stand& stand, Columns& columns) {
                   {"drawn_from", stand.drawn_from}});
 }
 
-std::string to_json(const std::vector<Chart>& charts, Columns& columns) {
+std::string charts_json(const std::vector<Plot>& charts, Columns& columns) {
   Json out = Json::array();
-  for (const Chart& c : charts) {
+  for (const Plot& c : charts) {
     Json curves = Json::array();
-    for (const ChartCurve& curve : c.curves) curves.push_back(curve_of(curve, columns));
+    for (const Curve& curve : c.curves) curves.push_back(curve_of(curve, columns));
     out.push_back({{"title", c.title},
-                   {"x", axis_of(c.x)},
-                   {"y", axis_of(c.y)},
+                   {"x", json_of(c.x)},
+                   {"y", json_of(c.y)},
                    {"curves", std::move(curves)},
                    {"note", c.note}});
   }
@@ -329,7 +323,7 @@ std::string to_json(const FitPage& fit, Columns& columns) {
   out["parts"] = Json::array();
   for (const FitPart& part : fit.parts)
     out["parts"].push_back({{"report", Json::parse(part.report)},
-                            {"charts", Json::parse(to_json(part.charts, columns))}});
+                            {"charts", Json::parse(charts_json(part.charts, columns))}});
   out["parameters"] = Json::parse(to_json(fit.values));
   return text_of(out);
 }

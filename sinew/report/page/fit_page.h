@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "sinew/report/page/charts.h"
 #include "sinew/report/page/content.h"
 #include "sinew/report/page/page.h"
 #include "sinew/report/page/parameters.h"
+#include "sinew/report/page/plot.h"
 
 namespace sinew::report {
 
 // One report of `sinew identify`; of several sensors each has its own.
 struct FitPart {
   std::string report;  // JSON of format sinew.identification/1
-  std::vector<Chart> charts;
+  std::vector<Plot> charts;
 };
 
 struct FitPage {

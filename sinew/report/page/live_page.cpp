@@ -129,7 +129,7 @@ LivePage::LivePage(const std::vector<signals::Topic>& topics, Of of)
   const report::Content whole = report::content(
       {.analysis = analysis, .resolved = of_.resolved, .name = of_.name, .units = of_.units});
   units_ = whole.units;
-  const std::string curves = to_json(panels(parts.channels, machine_), columns);
+  const std::string curves = panels_json(panels(parts.channels, machine_), columns);
   const std::string scene = to_json(parts.scene, columns), stand = to_json(parts.stand, columns);
   Blob::Layout layout = blob.layout();
   std::ranges::fill(layout.clocks, 0);

@@ -132,8 +132,8 @@ TEST(Page, SaysWhatIsMissingWithoutNpm) {
 
 // --- panels ---
 
-Panel panel(const std::vector<Panel>& all, const std::string& title) {
-  for (const Panel& p : all)
+Plot panel(const std::vector<Plot>& all, const std::string& title) {
+  for (const Plot& p : all)
     if (p.title == title) return p;
   return {};
 }
@@ -143,11 +143,11 @@ TEST(Panels, ShowEveryChannelOnceButWhatIsDrawnOtherwise) {
   const signals::Table t = test::walking(m);
   Channels channels;
   channels.add(t);
-  const std::vector<Panel> all = panels(channels, m);
+  const std::vector<Plot> all = panels(channels, m);
   for (const signals::Series& s : t.series) {
     int times = 0;
-    for (const Panel& p : all)
-      for (const Line& l : p.lines) times += l.channel.topic == s.topic.name;
+    for (const Plot& p : all)
+      for (const Curve& c : p.curves) times += c.y_channel.topic == s.topic.name;
     const bool apart = s.topic.name.starts_with("/plan/") || s.topic.name.ends_with("/open");
     const int fields = static_cast<int>(s.topic.fields.size());
     EXPECT_EQ(times, apart ? 0 : fields) << s.topic.name;
@@ -161,13 +161,13 @@ TEST(Panels, HideTheTruthOnlyWhereAMeasurementStandsForIt) {
     log.scalar(topic, analysis::test::constant(1));
   Channels channels;
   channels.add(log.table);
-  const Panel angles = panel(panels(channels, m), "Joint angles");
-  ASSERT_EQ(angles.lines.size(), 3u);
-  EXPECT_EQ(angles.lines[0].style, Line::Style::measured);
-  EXPECT_EQ(angles.lines[1].style, Line::Style::hidden);
-  EXPECT_EQ(angles.lines[2].style, Line::Style::measured) << "of the knee there is nothing else";
-  EXPECT_EQ(angles.lines[0].color, angles.lines[1].color);
-  EXPECT_NE(angles.lines[0].color, angles.lines[2].color);
+  const Plot angles = panel(panels(channels, m), "Joint angles");
+  ASSERT_EQ(angles.curves.size(), 3u);
+  EXPECT_FALSE(angles.curves[0].hidden);
+  EXPECT_TRUE(angles.curves[1].hidden);
+  EXPECT_FALSE(angles.curves[2].hidden) << "of the knee there is nothing else";
+  EXPECT_EQ(angles.curves[0].color, angles.curves[1].color);
+  EXPECT_NE(angles.curves[0].color, angles.curves[2].color);
 }
 
 TEST(Panels, TakeWhatNobodyKnowsByItsUnit) {
@@ -179,11 +179,11 @@ TEST(Panels, TakeWhatNobodyKnowsByItsUnit) {
   log.table.series[1].topic.fields[0].unit = "m";
   Channels channels;
   channels.add(log.table);
-  const std::vector<Panel> all = panels(channels, {});
+  const std::vector<Plot> all = panels(channels, {});
   ASSERT_EQ(all.size(), 2u);
-  EXPECT_EQ(all[0].unit, "N");
-  EXPECT_EQ(all[0].lines.size(), 2u);
-  EXPECT_EQ(all[1].unit, "m");
+  EXPECT_EQ(all[0].y.unit, "N");
+  EXPECT_EQ(all[0].curves.size(), 2u);
+  EXPECT_EQ(all[1].y.unit, "m");
   EXPECT_EQ(all[1].group, "Other");
 }
 

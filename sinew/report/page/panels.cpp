@@ -10,7 +10,7 @@
 namespace sinew::report {
 namespace {
 
-using Style = Line::Style;
+enum class Style { measured, desired, hidden };
 
 // Converts "hip_flexor" to "hip flexor".
 std::string words(std::string name) {
@@ -37,7 +37,8 @@ class Panels {
   // Begins a panel. `unit` replaces the channels' unit, which does not distinguish shares from
   // other numbers.
   void open(std::string group, std::string title, std::string unit = "") {
-    list.push_back({std::move(group), std::move(title), std::move(unit), {}});
+    list.push_back(
+        {.title = std::move(title), .y = {.unit = std::move(unit)}, .group = std::move(group)});
   }
   // Adds a line if the channel has values. Topics are those of a machine with one leg.
   void line(std::string label, Channel channel, int color, Style style = Style::measured) {
@@ -46,13 +47,18 @@ class Panels {
     if (!samples) return;
     claimed_.insert(channel.topic);
     if (!has_number(samples)) return;
-    Panel& panel = list.back();
-    if (panel.unit.empty()) panel.unit = samples.unit;
+    Plot& panel = list.back();
+    if (panel.y.unit.empty()) panel.y.unit = samples.unit;
     // A hidden line is shown if the line that it would be hidden behind is missing.
-    const bool alone = std::ranges::none_of(
-        panel.lines, [&](const Line& l) { return l.color == color && l.style == Style::measured; });
-    if (style == Style::hidden && alone) style = Style::measured;
-    panel.lines.push_back({std::move(label), std::move(channel), color, style});
+    const bool alone = std::ranges::none_of(panel.curves, [&](const Curve& c) {
+      return c.color == color && c.kind != Curve::Kind::desired && !c.hidden;
+    });
+    panel.curves.push_back(
+        {.label = std::move(label),
+         .kind = style == Style::desired ? Curve::Kind::desired : Curve::Kind::computed,
+         .color = color,
+         .y_channel = std::move(channel),
+         .hidden = style == Style::hidden && !alone});
   }
   void per_joint(const std::string& before, const std::string& after, const std::string& note = "",
                  Style style = Style::measured) {
@@ -75,7 +81,7 @@ class Panels {
   void per_sensor(const std::string& unit);
   void others(const std::string& group);
 
-  std::vector<Panel> list;
+  std::vector<Plot> list;
 
  private:
   void per(const std::vector<std::string>& names, const std::string& before,
@@ -124,7 +130,7 @@ void muscles(Panels& p) {
        {std::pair("Pressure", "/pressure"), std::pair("Length", "/length")}) {
     p.open("Muscles", title);
     p.per_muscle("/muscle/", after);
-    const bool measured = !p.list.back().lines.empty();
+    const bool measured = !p.list.back().curves.empty();
     p.per_muscle("/true/muscle/", after, measured ? " true" : "", Style::hidden);
   }
 }
@@ -274,36 +280,36 @@ std::string title_of(const std::string& unit) {
 }
 
 void Panels::others(const std::string& group) {
-  std::map<std::string, Panel> by_unit;
+  std::map<std::string, Plot> by_unit;
   for (const signals::Table* table : channels_.tables())
     for (const signals::Series& series : table->series) {
       if (shown_elsewhere(series.topic.name)) continue;
       for (const signals::Field& field : series.topic.fields) {
         const Samples samples = channels_.find({series.topic.name, field.name});
         if (!samples || !has_number(samples)) continue;
-        Panel& panel = by_unit[field.unit];
+        Plot& panel = by_unit[field.unit];
         const std::string name = series.topic.name.substr(1);
-        panel.lines.push_back({field.name == "value" ? name : name + " " + field.name,
-                               {series.topic.name, field.name},
-                               static_cast<int>(panel.lines.size())});
+        panel.curves.push_back({.label = field.name == "value" ? name : name + " " + field.name,
+                                .color = static_cast<int>(panel.curves.size()),
+                                .y_channel = {series.topic.name, field.name}});
       }
     }
   for (auto& [unit, panel] : by_unit) {
     panel.group = group;
     panel.title = title_of(unit);
-    panel.unit = unit;
+    panel.y.unit = unit;
     list.push_back(std::move(panel));
   }
 }
 
-std::vector<Panel> not_empty(std::vector<Panel> list) {
-  std::erase_if(list, [](const Panel& panel) { return panel.lines.empty(); });
+std::vector<Plot> not_empty(std::vector<Plot> list) {
+  std::erase_if(list, [](const Plot& panel) { return panel.curves.empty(); });
   return list;
 }
 
 }  // namespace
 
-std::vector<Panel> panels(const Channels& channels, const analysis::Machine& machine) {
+std::vector<Plot> panels(const Channels& channels, const analysis::Machine& machine) {
   const robot::Robot& robot = machine.robot;
   Panels p(channels, robot);
   if (machine.stand) {

@@ -1,6 +1,10 @@
-// report/page/charts.h - charts of one quantity against another: points, lines and bands.
+// report/page/plot.h - description of a plot: curves of numbers or of channels in one pair of axes.
+//
+// Pages, comparisons, fits and printed figures draw the same description. Over time the x axis has
+// no name. A page converts the units; a printed figure is in the units of its axes.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,42 +13,77 @@
 
 namespace sinew::report {
 
-struct ChartAxis {
-  std::string label;  // "length"
-  std::string unit;   // SI, "share" of 1, or "Pa diff"; the page converts it
-};
+// An axis with its range and unit.
+struct Axis {
+  static constexpr double automatic = std::numeric_limits<double>::quiet_NaN();
 
-// A curve, given by numbers or by two channels with the same times. NaN breaks a line.
-struct ChartCurve {
-  // The way in which the curve is drawn.
-  enum class Style {
-    points,
-    line,
-    held_out,  // points that were held out of a fit
-    left_out,  // points that were left out of all fits, hollow: each `mark` has a shape
-    other,     // a line of a model that was not chosen
-    band       // area between y and y_high
+  std::string name;                         // "joint angle"
+  std::string unit;                         // "deg"; "-" for a plain number
+  double from = automatic, to = automatic;  // in `unit`; automatic: the range of the data
+  bool logarithmic = false;
+
+  // Names of rows, shown instead of numbers and title.
+  struct Tick {
+    double at = 0;
+    std::string text;
   };
+  std::vector<Tick> ticks = {};
+  double scale = 0;  // size of the SI unit in `unit`; 0: unknown
 
-  std::string label;
-  Style style = Style::line;
-  int color = 0;  // index in the page's palette
-  std::vector<double> x, y, y_high;
-  Channel x_channel, y_channel;  // used instead of numbers
-  std::vector<double> dash;      // lengths of a line's strokes and gaps; empty: solid [px]
-  int mark = 0;                  // shape of points that were left out; 0 for others: a disc
-  bool bold = false;
-  bool hidden = false;  // initially not shown
+  std::string title() const;  // "joint angle [deg]"; a plain number has its name alone
 };
 
-// Curves of a quantity against another, in one picture.
-struct Chart {
-  std::string title;
-  ChartAxis x, y;
-  std::vector<ChartCurve> curves;
-  std::string note;  // remark for the reader
+// A curve of one quantity over another, given by numbers or by channels, and its style.
+struct Curve {
+  // Steps: a value holds until the next one. Marked: a line with a mark on each sample. Held out,
+  // left out: points that were not used by a fit, or by no fit. Other: the line of a model that was
+  // not chosen. Band: the area between ys and ys_high.
+  enum class Style { line, marked, steps, points, bars, held_out, left_out, other, band };
+  // Computed: by a law or a simulation. Measured: on hardware. Desired: setpoint of a controller.
+  // Synthetic: replaces a measurement that is lost, and is marked so in the legend.
+  enum class Kind { computed, measured, desired, synthetic };
+  static constexpr int next = -1;
 
-  bool empty() const { return curves.empty(); }
+  std::string label;           // empty: not in the legend, and the file uses the axis's name
+  std::vector<double> xs, ys;  // in the axes' units; NaN in y: a gap
+  Kind kind = Kind::computed;
+  Style style = Style::line;
+  int color = next;       // index in the palette; a desired curve has its actual one's
+  int dash = next;        // index of the dash; next: that of the color
+  std::string source;     // law, run or file of the numbers
+  bool in_legend = true;  // false: the label is not drawn
+
+  std::vector<double> ys_high{};     // upper line of a band
+  Channel x_channel{}, y_channel{};  // used instead of numbers; without the first one: over time
+  std::vector<double> strokes{};     // lengths of a line's strokes and gaps on a page; empty: solid
+  int mark = 0;                      // shape of points that were left out; 0: a disc
+  bool bold = false;
+  bool hidden = false;  // initially not shown on a page
+};
+
+// A shaded range of x: stance, or the time of a fault between two lines.
+struct Span {
+  // Event that the span marks.
+  enum class Of { stance, fault };
+  double from = 0, to = 0;  // in x
+  Of of = Of::stance;
+};
+
+// Curves in one pair of axes.
+struct Plot {
+  // Position of the curves' names: in a legend above the data, or at each curve's right end. None:
+  // the rows have names, and lines need no dashes.
+  enum class Names { legend, ends, none };
+
+  std::string name;   // part of file names if a figure has several plots: "stiffness"
+  std::string title;  // drawn above the plot; empty: no title
+  Axis x, y;
+  std::vector<Curve> curves;
+  std::vector<Span> spans;
+  bool equal_scale = false;  // both axes have the same scale
+  Names names = Names::legend;
+  std::string group{};  // group of plots on a page, "Joints"
+  std::string note{};   // remark for the reader of a page
 };
 
 }  // namespace sinew::report

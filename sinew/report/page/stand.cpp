@@ -158,29 +158,35 @@ bool varies(const Samples& s) {
 }
 
 // Adds a chart of one channel against another, if both vary and have the same times.
-void add_loop(const Channels& channels, const std::string& title, const ChartAxis& x,
-              const Channel& xs, const ChartAxis& y, const Channel& ys, std::vector<Chart>& out) {
+void add_loop(const Channels& channels, const std::string& title, const Axis& x, const Channel& xs,
+              const Axis& y, const Channel& ys, std::vector<Plot>& out) {
   const Samples a = channels.find(xs), b = channels.find(ys);
   if (!varies(a) || !varies(b) || *a.time_ns != *b.time_ns) return;
-  ChartCurve curve{.label = y.label, .x_channel = xs, .y_channel = ys};
-  out.push_back({title, x, y, {std::move(curve)}, "Over the whole run; the dot is its time."});
+  out.push_back({.title = title,
+                 .x = x,
+                 .y = y,
+                 .curves = {{.label = y.name, .x_channel = xs, .y_channel = ys}},
+                 .note = "Over the whole run; the dot is its time."});
 }
 
 void add_sweep(const Channels& channels, const std::string& title, const std::string& what,
-               const std::string& unit, std::vector<Chart>& out) {
+               const std::string& unit, std::vector<Plot>& out) {
   const Samples duty = channels.find({"/sweep/duty"}), values = channels.find({what});
   if (!duty || !values) return;
-  ChartCurve line{
-      .label = "settled", .x = duty.values->in_memory(), .y = values.values->in_memory()};
-  ChartCurve points{.label = "", .style = ChartCurve::Style::points, .x = line.x, .y = line.y};
-  out.push_back({title, {"delivered duty", "share"}, {title, unit}, {line, points}, ""});
+  const Curve line{
+      .label = "settled", .xs = duty.values->in_memory(), .ys = values.values->in_memory()};
+  const Curve points{.xs = line.xs, .ys = line.ys, .style = Curve::Style::points};
+  out.push_back({.title = title,
+                 .x = {"delivered duty", "share"},
+                 .y = {title, unit},
+                 .curves = {line, points}});
 }
 
 }  // namespace
 
-std::vector<Chart> stand_charts(const Channels& channels, const Stand& s) {
-  std::vector<Chart> out;
-  const ChartAxis length{"length", "m"}, tension{"tension", "N"}, pressure{"pressure", "Pa"};
+std::vector<Plot> stand_charts(const Channels& channels, const Stand& s) {
+  std::vector<Plot> out;
+  const Axis length{"length", "m"}, tension{"tension", "N"}, pressure{"pressure", "Pa"};
   if (!s.empty()) {
     add_loop(channels, "Tension against length", length, s.length, tension, s.tension, out);
     add_loop(channels, "Pressure against length", length, s.length, pressure, s.pressure, out);

@@ -10,7 +10,7 @@
 
 #include "sinew/analysis/record/machine.h"
 #include "sinew/report/page/channels.h"
-#include "sinew/report/page/charts.h"
+#include "sinew/report/page/plot.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::report {
@@ -50,6 +50,6 @@ Stand stand(const Channels& channels, const analysis::Machine& machine, signals:
 
 // Returns the charts of a stand: loops of tension, pressure and length, or the settled values of a
 // sweep.
-std::vector<Chart> stand_charts(const Channels& channels, const Stand& stand);
+std::vector<Plot> stand_charts(const Channels& channels, const Stand& stand);
 
 }  // namespace sinew::report

@@ -116,7 +116,7 @@ TEST(Stand, OfACylinderHasItsMeasures) {
 
 TEST(StandCharts, AreOfWhatMoves) {
   const Drawn d("weights-60.toml", hanging());
-  const std::vector<Chart> charts = stand_charts(d.channels, d.stand);
+  const std::vector<Plot> charts = stand_charts(d.channels, d.stand);
   ASSERT_EQ(charts.size(), 1u) << "the pressure stands still";
   EXPECT_EQ(charts[0].title, "Tension against length");
   EXPECT_EQ(charts[0].curves[0].x_channel.topic, "/true/stand/length");
@@ -127,10 +127,10 @@ TEST(StandCharts, OfASweepAreOverItsDuties) {
   log.scalar("/sweep/duty", [](double t) { return 10 * t; });
   log.scalar("/true/sweep/length", [](double t) { return 0.1 - t; });
   const Drawn d("duty-sweep.toml", log);
-  const std::vector<Chart> charts = stand_charts(d.channels, d.stand);
+  const std::vector<Plot> charts = stand_charts(d.channels, d.stand);
   ASSERT_EQ(charts.size(), 1u);
   EXPECT_EQ(charts[0].x.unit, "share");
-  EXPECT_EQ(charts[0].curves[0].x, d.values({"/sweep/duty"}));
+  EXPECT_EQ(charts[0].curves[0].xs, d.values({"/sweep/duty"}));
   EXPECT_TRUE(panels(d.channels, d.machine).empty()) << "it has no time";
 }
 
@@ -144,9 +144,9 @@ TEST(StandPanels, ShowEveryChannelOnceButWhatIsDrawnOtherwise) {
   Channels channels;
   channels.add(log.table);
   std::map<std::string, int> times;
-  for (const Panel& p :
+  for (const Plot& p :
        panels(channels, analysis::read_machine(config::compose(path_of("feedback.toml")))))
-    for (const Line& l : p.lines) times[l.channel.topic] += 1;
+    for (const Curve& c : p.curves) times[c.y_channel.topic] += 1;
   for (const signals::Series& s : log.table.series)
     EXPECT_EQ(times[s.topic.name], s.topic.name.ends_with("/open") ? 0 : 1) << s.topic.name;
 }
