@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "sinew/units/hash.h"
+#include "sinew/units/letters.h"
 
 namespace sinew::fmu {
 
@@ -48,13 +49,6 @@ int hex_digit(char c) {
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;
   if (c >= 'A' && c <= 'F') return c - 'A' + 10;
   return -1;
-}
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
 }
 
 std::string without_percents(std::string_view text) {
@@ -191,7 +185,7 @@ std::filesystem::path resource_folder(const char* location) {
         "found no place of resources; expected a file: URI or a path of the unpacked FMU's "
         "resources");
   const std::string_view text(location);
-  const bool is_file = text.size() > 5 && lower(text.substr(0, 5)) == "file:";
+  const bool is_file = text.size() > 5 && units::lower(text.substr(0, 5)) == "file:";
   if (!is_file) {
     if (text.find("://") != std::string_view::npos)
       throw std::runtime_error("found resources at \"" + std::string(text) +

@@ -15,11 +15,11 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "fmu/slave/description.h"
-#include "sinew/units/field.h"
+#include "sinew/units/each_field.h"
 
 namespace sinew::fmu {
 
@@ -37,142 +37,95 @@ struct Parameter {
 };
 
 // Visitor that lists parameters. Unset values (not finite, an empty text) are left out.
-class Lister {
+class Lister : public units::EachField {
  public:
-  using Field = units::Field;
   // Adds `prefix` to all names.
-  explicit Lister(std::string prefix) : prefix_(std::move(prefix)) {}
+  explicit Lister(std::string prefix)
+      : EachField([this](const units::VisitedField& f) { add(f); }, Items::own, std::move(prefix)) {
+  }
 
   std::vector<Parameter> found;
 
-  // Functions of a visitor, see units/field.h.
-  void number(const Field& f, double& value) { add(f, std::string(f.name), f.unit, value); }
-  void numbers(const Field& f, std::vector<double>& values) {
-    for (std::size_t k = 0; k < values.size(); ++k) add(f, element(f, k), f.unit, values[k]);
-  }
-  void polynomial(const Field& f, std::vector<double>& values, std::string_view per) {
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      std::string unit = k == 0 ? std::string(f.unit) : "1/" + std::string(per);
-      if (k > 1) unit += std::to_string(k);
-      add(f, element(f, k), unit, values[k]);
-    }
-  }
-  void integer(const Field& f, int& value) {
-    add(f, std::string(f.name), "", value);
-    found.back().kind = Parameter::Kind::integer;
-  }
-  void flag(const Field& f, bool& value) { word(f, value ? "true" : "false"); }
-  void text(const Field& f, std::string& value) {
-    if (!value.empty()) word(f, value);
-  }
-  template <class Enum>
-  void choice(const Field& f, Enum& value,
-              std::initializer_list<units::Choice<std::type_identity_t<Enum>>> choices) {
-    for (const auto& c : choices)
-      if (c.value == value) word(f, std::string(c.word));
-  }
-  template <class Inside>
-  void group(const Field& f, const Inside& inside) {
-    const std::string outer = prefix_;
-    prefix_ += std::string(f.name) + ".";
-    inside(*this);
-    prefix_ = outer;
-  }
-
  private:
-  static std::string element(const Field& f, std::size_t k) {
-    return std::string(f.name) + "[" + std::to_string(k) + "]";
+  void add(const units::VisitedField& f) {
+    if (f.number) add(f, "", f.field.unit, *f.number);
+    for (std::size_t k = 0; f.numbers && k < f.numbers->size(); ++k) {
+      const std::string power = k > 1 ? std::to_string(k) : "";
+      const bool raised = f.type == units::FieldType::polynomial && k > 0;
+      add(f, "[" + std::to_string(k) + "]",
+          raised ? "1/" + std::string(f.per) + power : f.field.unit, (*f.numbers)[k]);
+    }
+    if (f.whole) {
+      add(f, "", "", *f.whole);
+      found.back().kind = Parameter::Kind::integer;
+    }
+    if (f.flag) add_word(f, *f.flag ? "true" : "false");
+    if (f.text && !f.text->empty()) add_word(f, *f.text);
+    if (f.choice < f.words.size()) add_word(f, std::string(f.words[f.choice]));
   }
-  void add(const Field& f, const std::string& name, std::string_view unit, double value) {
+  void add(const units::VisitedField& f, const std::string& element, std::string_view unit,
+           double value) {
     if (!std::isfinite(value)) return;
-    found.push_back({.name = prefix_ + name,
+    found.push_back({.name = f.path + element,
                      .unit = std::string(unit),
-                     .min = f.min,
-                     .max = f.max,
-                     .doc = std::string(f.doc),
+                     .min = f.field.min,
+                     .max = f.field.max,
+                     .doc = std::string(f.field.doc),
                      .number = value});
   }
-  void word(const Field& f, std::string value) {
-    found.push_back({.name = prefix_ + std::string(f.name),
+  void add_word(const units::VisitedField& f, std::string value) {
+    found.push_back({.name = f.path,
                      .kind = Parameter::Kind::word,
-                     .doc = std::string(f.doc),
+                     .doc = std::string(f.field.doc),
                      .word = std::move(value)});
   }
-
-  std::string prefix_;
 };
 
 // Visitor that fills a struct from such a list; a value that the list lacks keeps the struct's
 // default. Throws std::runtime_error with the messages of the file's reader for values that
 // contradict each other.
-class Filler {
+class Filler : public units::EachField {
  public:
-  using Field = units::Field;
   // Uses the parameters with `prefix` in the list, which must outlive this object.
   Filler(const std::vector<Parameter>& from, std::string prefix)
-      : from_(from), prefix_(std::move(prefix)) {}
-
-  // Functions of a visitor, see units/field.h.
-  void number(const Field& f, double& value) {
-    if (const Parameter* p = find(std::string(f.name))) value = p->number;
-  }
-  void numbers(const Field& f, std::vector<double>& values) {
-    std::vector<double> read;
-    for (;;) {
-      const Parameter* p = find(std::string(f.name) + "[" + std::to_string(read.size()) + "]");
-      if (!p) break;
-      read.push_back(p->number);
-    }
-    if (!read.empty()) values = read;
-  }
-  void polynomial(const Field& f, std::vector<double>& values, std::string_view) {
-    numbers(f, values);
-  }
-  void integer(const Field& f, int& value) {
-    if (const Parameter* p = find(std::string(f.name))) value = static_cast<int>(p->number);
-  }
-  void flag(const Field& f, bool& value) {
-    if (const Parameter* p = find(std::string(f.name))) value = p->word == "true";
-  }
-  void text(const Field& f, std::string& value) {
-    if (const Parameter* p = find(std::string(f.name))) value = p->word;
-  }
-  template <class Enum>
-  void choice(const Field& f, Enum& value,
-              std::initializer_list<units::Choice<std::type_identity_t<Enum>>> choices) {
-    const Parameter* p = find(std::string(f.name));
-    if (!p) return;
-    for (const auto& c : choices) {
-      if (c.word != p->word) continue;
-      value = c.value;
-      return;
-    }
-    report_conflict(f.name, "\"" + p->word + "\"", "a word of this version", "");
-  }
-  template <class Inside>
-  void group(const Field& f, const Inside& inside) {
-    const std::string outer = prefix_;
-    prefix_ += std::string(f.name) + ".";
-    inside(*this);
-    prefix_ = outer;
-  }
-  // Throws for values that contradict each other.
-  [[noreturn]] void report_conflict(std::string_view key, const std::string& found,
-                                    const std::string& expected, const std::string& try_this) {
-    throw std::runtime_error(prefix_ + std::string(key) + ": found " + found + "; expected " +
-                             expected + (try_this.empty() ? "" : "; try " + try_this));
+      : EachField([this](units::VisitedField& f) { fill(f); }, Items::own, std::move(prefix)),
+        from_(from) {
+    on_conflict(refuse);
   }
 
  private:
+  [[noreturn]] static void refuse(const std::string& name, const std::string& found,
+                                  const std::string& expected, const std::string& try_this) {
+    throw std::runtime_error(name + ": found " + found + "; expected " + expected +
+                             (try_this.empty() ? "" : "; try " + try_this));
+  }
+
+  void fill(units::VisitedField& f) const {
+    if (f.numbers) return fill_numbers(f);
+    const Parameter* p = find(f.path);
+    if (!p) return;
+    if (f.number) *f.number = p->number;
+    if (f.whole) *f.whole = static_cast<int>(p->number);
+    if (f.flag) *f.flag = p->word == "true";
+    if (f.text) *f.text = p->word;
+    if (f.type != units::FieldType::choice) return;
+    for (f.choice = 0; f.choice < f.words.size(); ++f.choice)
+      if (f.words[f.choice] == p->word) return;
+    refuse(f.path, "\"" + p->word + "\"", "a word of this version", "");
+  }
+  void fill_numbers(const units::VisitedField& f) const {
+    std::vector<double> read;
+    while (const Parameter* p = find(f.path + "[" + std::to_string(read.size()) + "]"))
+      read.push_back(p->number);
+    if (!read.empty()) *f.numbers = read;
+  }
   const Parameter* find(const std::string& name) const {
-    const std::string whole = prefix_ + name;
     for (const Parameter& p : from_)
-      if (p.name == whole) return &p;
+      if (p.name == name) return &p;
     return nullptr;
   }
 
   const std::vector<Parameter>& from_;
-  std::string prefix_;
 };
 
 // Writes the list as lines of a description.

@@ -150,12 +150,6 @@ std::string quantity_like(const Origins& origins, std::string_view path, double 
                        otherwise, room);
 }
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 namespace {
 
 using units::Dimension;
@@ -514,6 +508,14 @@ std::string format_quantity(double si, std::string_view unit, std::string_view d
   const double number = convert(si, unit, display, atmosphere);
   return fmt::format("{:.{}g}{}{}", number, significant_digits, display == "1" ? "" : " ",
                      display == "1" ? "" : display);
+}
+
+std::string range_text(double low, double high, std::string_view unit) {
+  const bool has_low = std::isfinite(low), has_high = std::isfinite(high);
+  if (!has_low && !has_high) return "";
+  if (!has_low) return "at most " + format_quantity(high, unit);
+  if (!has_high) return "at least " + format_quantity(low, unit);
+  return fmt::format("{} to {}", format_quantity(low, unit), format_quantity(high, unit));
 }
 
 double convert(double si, std::string_view unit, std::string_view display, double atmosphere) {

@@ -12,11 +12,11 @@
 
 #include "sinew/config/origin.h"
 #include "sinew/units/constants.h"
+#include "sinew/units/letters.h"
 
 namespace sinew::config {
 
-// Returns the text without blanks and tabs at its ends.
-std::string_view trimmed(std::string_view text);
+using units::trimmed;
 
 // Reason why a text is not the expected quantity; becomes part of a Problem.
 struct Mistake {
@@ -54,6 +54,9 @@ std::string format_quantity(double si, std::string_view unit);
 // Formats a quantity rounded, in another unit of the same dimension: "3.15 in", "62 psi gauge".
 std::string format_quantity(double si, std::string_view unit, std::string_view display,
                             int significant_digits = 6, double atmosphere = units::atmosphere);
+
+// Returns "0 m to 1 m", "at least 0 m" or "at most 1 m"; empty if neither end is finite.
+std::string range_text(double low, double high, std::string_view unit);
 
 // Returns the number in the unit `display`.
 double convert(double si, std::string_view unit, std::string_view display,

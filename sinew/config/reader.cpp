@@ -20,14 +20,6 @@ namespace {
 
 // --- texts for messages: defaults and allowed values ---
 
-std::string bounds_text(const units::Field& field) {
-  const std::string low = format_quantity(field.min, field.unit);
-  const std::string high = format_quantity(field.max, field.unit);
-  if (field.max == units::unbounded) return "at least " + low;
-  if (field.min == -units::unbounded) return "at most " + high;
-  return fmt::format("{} to {}", low, high);
-}
-
 // Returns a default as it would be written. A default that is not finite is "not set".
 std::string default_text(double value, std::string_view unit) {
   return std::isfinite(value) ? format_quantity(value, unit) : "not set";
@@ -39,20 +31,11 @@ std::string joined(const std::vector<double>& values, std::string_view unit) {
   return text;
 }
 
-// Returns the description of a number with the field's limits: "m (length), at least 0 m".
-std::string number_text(const units::Field& field) {
-  std::string text = describe_unit(field.unit);
-  if (field.min != -units::unbounded || field.max != units::unbounded)
-    text += ", " + bounds_text(field);
-  return text;
-}
-
-// Returns the description of a whole number: "a whole number, 1 to 8".
-std::string whole_text(const units::Field& field) {
-  const bool low = field.min != -units::unbounded, high = field.max != units::unbounded;
-  if (low && high) return fmt::format("a whole number, {:.0f} to {:.0f}", field.min, field.max);
-  if (low) return fmt::format("a whole number, at least {:.0f}", field.min);
-  return high ? fmt::format("a whole number, at most {:.0f}", field.max) : "a whole number";
+// Returns the description of a number with the field's limits: "m (length), at least 0 m",
+// "a whole number, 1 to 8".
+std::string number_text(const std::string& what, const units::Field& field) {
+  const std::string range = range_text(field.min, field.max, field.unit);
+  return range.empty() ? what : what + ", " + range;
 }
 
 // Returns the words of a choice: `"raises angle" or "lowers angle"`.
@@ -70,7 +53,7 @@ std::string with_reason(std::string text, std::string_view why) {
 // Returns the range that the value violates, the field's own or its unit's; empty if none.
 std::string out_of_bounds(const units::Field& field, double value) {
   if (!(value >= field.min && value <= field.max)) {
-    return with_reason(bounds_text(field), field.why);
+    return with_reason(range_text(field.min, field.max, field.unit), field.why);
   }
   if (value != 0 && std::abs(value) < field.least) {
     const std::string least = format_quantity(field.least, field.unit);
@@ -102,7 +85,8 @@ Reader::Reader(const Node& root, ReaderOptions options)
 // --- values ---
 
 void Reader::number(const Field& field, double& value) {
-  auto entry = open(field, default_text(value, field.unit), field.unit, number_text(field));
+  auto entry = open(field, default_text(value, field.unit), field.unit,
+                    number_text(describe_unit(field.unit), field));
   if (!entry) return;
   const auto si = si_of(*entry->value, field.unit, entry->origin.path);
   if (si && in_bounds(field, *si, *entry->value, entry->origin.path)) {
@@ -115,7 +99,7 @@ void Reader::number(const Field& field, double& value) {
 
 void Reader::numbers(const Field& field, std::vector<double>& values) {
   auto entry = open(field, joined(values, field.unit), field.unit,
-                    "a list, each value " + number_text(field));
+                    "a list, each value " + number_text(describe_unit(field.unit), field));
   if (!entry) return;
   if (expect_kind(*entry->value, Node::Kind::array, entry->origin.path)) {
     values.clear();
@@ -150,7 +134,7 @@ void Reader::polynomial(const Field& field, std::vector<double>& coefficients,
 }
 
 void Reader::integer(const Field& field, int& value) {
-  auto entry = open(field, std::to_string(value), "", whole_text(field));
+  auto entry = open(field, std::to_string(value), "", number_text("a whole number", field));
   if (!entry) return;
   const Node& node = *entry->value;
   using Limits = std::numeric_limits<int>;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sinew/units/constants.h"
+#include "sinew/units/letters.h"
 #include "sinew/units/unit.h"
 
 namespace sinew::config {
@@ -13,18 +14,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-std::string_view without_blanks(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
-}
+using units::lower;
 
 // Characters outside ASCII, and powers, in Sinew's spelling.
 constexpr std::pair<std::string_view, std::string_view> signs[] = {
@@ -50,204 +40,139 @@ std::string with_plain_signs(std::string_view text) {
   return out;
 }
 
-// Whole units in lower case that are written as one word or that Sinew lacks, and their value in a
+// Spellings of a whole unit in lower case, separated by commas, and the value of one of them in a
 // unit of Sinew.
 struct Whole {
-  std::string_view theirs, ours;
+  std::string_view ours, theirs;
   double factor = 1;
 };
 constexpr double kilopond = units::standard_gravity;  // [N]
+// clang-format off
 constexpr Whole wholes[] = {
-    {"nm", "N m"},
-    {"n-m", "N m"},
-    {"nmm", "N mm"},
-    {"ncm", "N cm"},
-    {"knm", "kN m"},
-    {"lbin", "lbf in"},
-    {"lb-in", "lbf in"},
-    {"inlb", "lbf in"},
-    {"in-lb", "lbf in"},
-    {"in lb", "lbf in"},
-    {"lbfin", "lbf in"},
-    {"lbf-in", "lbf in"},
-    {"in-lbf", "lbf in"},
-    {"inlbf", "lbf in"},
-    {"lbft", "lbf ft"},
-    {"lb-ft", "lbf ft"},
-    {"ftlb", "lbf ft"},
-    {"ft-lb", "lbf ft"},
-    {"ft lb", "lbf ft"},
-    {"ftlbf", "lbf ft"},
-    {"ft-lbf", "lbf ft"},
-    {"lbf-ft", "lbf ft"},
-    {"kgf", "N", kilopond},
-    {"kp", "N", kilopond},
-    {"dan", "N", 10},
-    {"ozf", "lbf", 1.0 / 16},
-    {"kgf m", "N m", kilopond},
-    {"kp m", "N m", kilopond},
-    {"kgf cm", "N cm", kilopond},
-    {"kp cm", "N cm", kilopond},
-    {"kgf-cm", "N cm", kilopond},
-    {"kgf/cm2", "Pa", kilopond * 1e4},
-    {"kp/cm2", "Pa", kilopond * 1e4},
-    {"mbar", "bar", 1e-3},
-    {"hpa", "Pa", 100},
-    {"torr", "Pa", 101325.0 / 760},
-    {"mmhg", "Pa", 133.322387415},
-    {"inhg", "Pa", 3386.389},
-    {"inh2o", "Pa", 249.08891},
-    {"mmh2o", "Pa", kilopond},
-    {"at", "Pa", kilopond * 1e4},
-    {"atm", "Pa", 101325},
-    {"ksi", "psi", 1000},
-    {"u/min", "rpm"},
-    {"rev/min", "rpm"},
-    {"r/min", "rpm"},
-    {"umdr/min", "rpm"},
-    {"rpm", "rpm"},
-    {"rps", "rpm", 60},
-    {"rev/s", "rpm", 60},
-    {"min-1", "1/min"},
-    {"s-1", "1/s"},
-    {"m/s-2", "m/s2"},
-    {"ms-2", "m/s2"},
-    {"dps", "deg/s"},
-    {"lpm", "L/min"},
-    {"ccm", "cm3"},
-    {"cc", "cm3"},
-    {"cfm", "ft3/min"},
-    {"-", "1"},
-    {"none", "1"},
-    {"ns", "us", 1e-3},
-    {"um", "mm", 1e-3},
-    {"micron", "mm", 1e-3},
-    {"mil", "in", 1e-3},
-    {"ua", "mA", 1e-3},
-    {"uv", "mV", 1e-3},
-    {"kohm", "ohm", 1e3},
-    {"kj", "J", 1e3},
-    {"kw", "W", 1e3},
-    {"nl", "mL", 1e-6},
+    {"N m", "nm, n-m"},
+    {"N mm", "nmm"},
+    {"N cm", "ncm"},
+    {"kN m", "knm"},
+    {"lbf in", "lbin, lb-in, inlb, in-lb, in lb, lbfin, lbf-in, in-lbf, inlbf"},
+    {"lbf ft", "lbft, lb-ft, ftlb, ft-lb, ft lb, ftlbf, ft-lbf, lbf-ft"},
+    {"N", "kgf, kp", kilopond},
+    {"N", "dan", 10},
+    {"lbf", "ozf", 1.0 / 16},
+    {"N m", "kgf m, kp m", kilopond},
+    {"N cm", "kgf cm, kp cm, kgf-cm", kilopond},
+    {"Pa", "kgf/cm2, kp/cm2, at", kilopond * 1e4},
+    {"bar", "mbar", 1e-3},
+    {"Pa", "hpa", 100},
+    {"Pa", "torr", 101325.0 / 760},
+    {"Pa", "mmhg", 133.322387415},
+    {"Pa", "inhg", 3386.389},
+    {"Pa", "inh2o", 249.08891},
+    {"Pa", "mmh2o", kilopond},
+    {"Pa", "atm", 101325},
+    {"psi", "ksi", 1000},
+    {"rpm", "u/min, rev/min, r/min, umdr/min, rpm"},
+    {"rpm", "rps, rev/s", 60},
+    {"1/min", "min-1"},
+    {"1/s", "s-1"},
+    {"m/s2", "m/s-2, ms-2"},
+    {"deg/s", "dps"},
+    {"L/min", "lpm"},
+    {"cm3", "ccm, cc"},
+    {"ft3/min", "cfm"},
+    {"1", "-, none"},
+    {"us", "ns", 1e-3},
+    {"mm", "um, micron", 1e-3},
+    {"in", "mil", 1e-3},
+    {"mA", "ua", 1e-3},
+    {"mV", "uv", 1e-3},
+    {"ohm", "kohm", 1e3},
+    {"J", "kj", 1e3},
+    {"W", "kw", 1e3},
+    {"mL", "nl", 1e-6},
 };
+// clang-format on
 
 // Units distinguished by capitals: milli and mega in "mN" and "MN", nano and newton in "nm" and
-// "Nm".
-constexpr std::pair<std::string_view, Whole> by_capitals[] = {
-    {"mN", {"", "N", 1e-3}},    {"MN", {"", "kN", 1e3}},     {"nN", {"", "N", 1e-9}},
-    {"nm", {"", "mm", 1e-6}},   {"mNm", {"", "N m", 1e-3}},  {"MNm", {"", "kN m", 1e3}},
-    {"MHz", {"", "kHz", 1e3}},  {"mHz", {"", "Hz", 1e-3}},   {"mW", {"", "W", 1e-3}},
-    {"MW", {"", "W", 1e6}},     {"mohm", {"", "ohm", 1e-3}}, {"mOhm", {"", "ohm", 1e-3}},
-    {"Mohm", {"", "ohm", 1e6}}, {"MOhm", {"", "ohm", 1e6}},  {"mPa", {"", "Pa", 1e-3}},
-    {"mpa", {"", ""}},          {"Ns", {"", "N s"}},
+// "Nm". An empty one is refused.
+// clang-format off
+constexpr Whole by_capitals[] = {
+    {"N", "mN", 1e-3},
+    {"kN", "MN", 1e3},
+    {"N", "nN", 1e-9},
+    {"mm", "nm", 1e-6},
+    {"N m", "mNm", 1e-3},
+    {"kN m", "MNm", 1e3},
+    {"kHz", "MHz", 1e3},
+    {"Hz", "mHz", 1e-3},
+    {"W", "mW", 1e-3},
+    {"W", "MW", 1e6},
+    {"ohm", "mohm, mOhm", 1e-3},
+    {"ohm", "Mohm, MOhm", 1e6},
+    {"Pa", "mPa", 1e-3},
+    {"", "mpa"},
+    {"N s", "Ns"},
 };
+// clang-format on
 
 // Names of a unit within a longer one, in lower case.
-using Word = std::pair<std::string_view, std::string_view>;
-constexpr Word known_words[] = {{"sec", "s"},
-                                {"secs", "s"},
-                                {"second", "s"},
-                                {"seconds", "s"},
-                                {"sek", "s"},
-                                {"sekunden", "s"},
-                                {"msec", "ms"},
-                                {"msecs", "ms"},
-                                {"millis", "ms"},
-                                {"millisecond", "ms"},
-                                {"milliseconds", "ms"},
-                                {"usec", "us"},
-                                {"micros", "us"},
-                                {"microseconds", "us"},
-                                {"minute", "min"},
-                                {"minutes", "min"},
-                                {"mins", "min"},
-                                {"hr", "h"},
-                                {"hrs", "h"},
-                                {"hour", "h"},
-                                {"hours", "h"},
-                                {"std", "h"},
-                                {"inch", "in"},
-                                {"inches", "in"},
-                                {"zoll", "in"},
-                                {"foot", "ft"},
-                                {"feet", "ft"},
-                                {"meter", "m"},
-                                {"meters", "m"},
-                                {"metre", "m"},
-                                {"metres", "m"},
-                                {"millimeter", "mm"},
-                                {"millimeters", "mm"},
-                                {"millimetre", "mm"},
-                                {"millimetres", "mm"},
-                                {"centimeter", "cm"},
-                                {"centimeters", "cm"},
-                                {"degree", "deg"},
-                                {"degrees", "deg"},
-                                {"degs", "deg"},
-                                {"radian", "rad"},
-                                {"radians", "rad"},
-                                {"celsius", "degC"},
-                                {"kelvin", "K"},
-                                {"volt", "V"},
-                                {"volts", "V"},
-                                {"ampere", "A"},
-                                {"amp", "A"},
-                                {"amps", "A"},
-                                {"ohms", "ohm"},
-                                {"counts", "count"},
-                                {"cts", "count"},
-                                {"lsb", "count"},
-                                {"digits", "count"},
-                                {"ticks", "count"},
-                                {"kilogram", "kg"},
-                                {"kilograms", "kg"},
-                                {"gram", "g"},
-                                {"grams", "g"},
-                                {"gramm", "g"},
-                                {"newton", "N"},
-                                {"newtons", "N"},
-                                {"pascal", "Pa"},
-                                {"pascals", "Pa"},
-                                {"liter", "L"},
-                                {"litre", "L"},
-                                {"liters", "L"},
-                                {"litres", "L"},
-                                {"l", "L"},
-                                {"ml", "mL"},
-                                {"percent", "%"},
-                                {"pct", "%"},
-                                {"prozent", "%"},
-                                {"psi", "psi"},
-                                {"bar", "bar"},
-                                {"bars", "bar"},
-                                {"kpa", "kPa"},
-                                {"pa", "Pa"},
-                                {"hz", "Hz"},
-                                {"khz", "kHz"},
-                                {"n", "N"},
-                                {"kn", "kN"},
-                                {"v", "V"},
-                                {"mm", "mm"},
-                                {"cm", "cm"},
-                                {"m", "m"},
-                                {"km", "km"},
-                                {"in", "in"},
-                                {"ft", "ft"},
-                                {"s", "s"},
-                                {"deg", "deg"},
-                                {"rad", "rad"},
-                                {"lbf", "lbf"},
-                                {"kg", "kg"},
-                                {"degc", "degC"},
-                                {"mv", "mV"},
-                                {"ma", "mA"},
-                                {"joule", "J"},
-                                {"watt", "W"},
-                                {"watts", "W"},
-                                {"lbsf", "lbf"},
-                                {"poundforce", "lbf"}};
+// clang-format off
+constexpr Whole known_words[] = {
+    {"s", "sec, secs, second, seconds, sek, sekunden, s"},
+    {"ms", "msec, msecs, millis, millisecond, milliseconds"},
+    {"us", "usec, micros, microseconds"},
+    {"min", "minute, minutes, mins"},
+    {"h", "hr, hrs, hour, hours, std"},
+    {"in", "inch, inches, zoll, in"},
+    {"ft", "foot, feet, ft"},
+    {"m", "meter, meters, metre, metres, m"},
+    {"mm", "millimeter, millimeters, millimetre, millimetres, mm"},
+    {"cm", "centimeter, centimeters, cm"},
+    {"deg", "degree, degrees, degs, deg"},
+    {"rad", "radian, radians, rad"},
+    {"degC", "celsius, degc"},
+    {"K", "kelvin"},
+    {"V", "volt, volts, v"},
+    {"A", "ampere, amp, amps"},
+    {"ohm", "ohms"},
+    {"count", "counts, cts, lsb, digits, ticks"},
+    {"kg", "kilogram, kilograms, kg"},
+    {"g", "gram, grams, gramm"},
+    {"N", "newton, newtons, n"},
+    {"Pa", "pascal, pascals, pa"},
+    {"L", "liter, litre, liters, litres, l"},
+    {"mL", "ml"},
+    {"%", "percent, pct, prozent"},
+    {"psi", "psi"},
+    {"bar", "bar, bars"},
+    {"kPa", "kpa"},
+    {"Hz", "hz"},
+    {"kHz", "khz"},
+    {"kN", "kn"},
+    {"km", "km"},
+    {"lbf", "lbf, lbsf, poundforce"},
+    {"mV", "mv"},
+    {"mA", "ma"},
+    {"J", "joule"},
+    {"W", "watt, watts"},
+};
+// clang-format on
 
-// Endings that give the reference of a pressure.
+// Returns the row of a table that lists the spelling; nullptr if none does.
+template <std::size_t count>
+const Whole* row_with(const Whole (&table)[count], std::string_view spelling) {
+  const auto lists = [&](const Whole& row) {
+    for (std::string_view rest = row.theirs; !rest.empty();) {
+      const std::size_t end = std::min(rest.find(','), rest.size());
+      if (rest.substr(0, end) == spelling) return true;
+      rest.remove_prefix(std::min(end + 2, rest.size()));
+    }
+    return false;
+  };
+  const Whole* row = std::ranges::find_if(table, lists);
+  return row == std::end(table) ? nullptr : row;
+}
+
+// Endings that give the reference of a pressure, in the order in which they are tried.
 constexpr std::pair<std::string_view, std::string_view> reference_words[] = {
     {" gauge", "gauge"},   {" abs", "abs"},      {" diff", "diff"},   {"(g)", "gauge"},
     {"(a)", "abs"},        {"(d)", "diff"},      {" g", "gauge"},     {" a", "abs"},
@@ -269,14 +194,10 @@ std::string with_our_words(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find_first_of(" /()-23456789", at), text.size());
     const std::string_view piece = text.substr(at, end - at);
-    const std::string small = lower(piece);
-    const auto* word = std::ranges::find(known_words, small, &Word::first);
     // Sinew's own names are kept: the capitals in "MPa" and "mm" matter.
     const bool ours = units::find_unit(piece) != units::known_units.end();
-    if (!ours && word != std::end(known_words))
-      out += word->second;
-    else
-      out += piece;
+    const Whole* word = ours ? nullptr : row_with(known_words, lower(piece));
+    out += word ? word->ours : piece;
     if (end < text.size()) out += text[end] == '-' ? ' ' : text[end];
     at = end + 1;
   }
@@ -298,18 +219,15 @@ std::vector<Spelling> bare_spellings(std::string_view text) {
     return out;
   }
   const std::string plain = with_plain_signs(text);
-  const std::string_view trimmed = without_blanks(plain);
-  for (const auto& [name, whole] : by_capitals) {
-    if (trimmed != name) continue;
-    if (!whole.ours.empty()) out.push_back({std::string(whole.ours), whole.factor});
+  const std::string_view text_in_ascii = units::trimmed(plain);
+  if (const Whole* whole = row_with(by_capitals, text_in_ascii)) {
+    if (!whole->ours.empty()) out.push_back({std::string(whole->ours), whole->factor});
     return out;
   }
-  const std::string small = lower(trimmed);
-  const auto* whole = std::ranges::find(wholes, small, &Whole::theirs);
-  if (whole != std::end(wholes)) {
+  if (const Whole* whole = row_with(wholes, lower(text_in_ascii))) {
     out.push_back({std::string(whole->ours), whole->factor});
   } else {
-    std::string ours = with_our_words(trimmed);
+    std::string ours = with_our_words(text_in_ascii);
     if (lower(ours) == "mpa") ours = "MPa";  // "Mpa"; "mpa" was refused above
     if (reads(ours)) out.push_back({std::move(ours)});
   }
@@ -320,7 +238,7 @@ std::vector<Spelling> bare_spellings(std::string_view text) {
 }  // namespace
 
 bool is_unit(std::string_view unit) {
-  std::string_view bare = without_blanks(unit);
+  std::string_view bare = units::trimmed(unit);
   for (const std::string_view reference : {" gauge", " abs", " diff"})
     if (bare.ends_with(reference)) {
       bare.remove_suffix(reference.size());
@@ -330,16 +248,16 @@ bool is_unit(std::string_view unit) {
 }
 
 std::vector<Spelling> spellings(std::string_view unit) {
-  std::string_view text = without_blanks(unit);
+  std::string_view text = units::trimmed(unit);
   while (text.size() > 2 && text.front() == '[' && text.back() == ']')
-    text = without_blanks(text.substr(1, text.size() - 2));
+    text = units::trimmed(text.substr(1, text.size() - 2));
   if (text.empty()) return {};
 
   // Pressures with a reference: "psig", "bar abs", and "bar g", which is not a bar times a gram.
   for (const auto& [ending, reference] : reference_words) {
     const std::string small = lower(text);
     if (!small.ends_with(ending) || small.size() == ending.size()) continue;
-    const std::string_view bare = without_blanks(text.substr(0, text.size() - ending.size()));
+    const std::string_view bare = units::trimmed(text.substr(0, text.size() - ending.size()));
     std::vector<Spelling> out = bare_spellings(bare);
     if (out.empty() || !is_pressure(out.front().unit)) continue;
     out.front().unit.append(1, ' ').append(reference);

@@ -89,6 +89,8 @@ std::string holds(const Key& key) {
       return "tables by name";
     case KeyType::list:
       return "list of tables";
+    case KeyType::item:
+      break;  // not a key
   }
   return "";
 }

@@ -7,154 +7,23 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/files/key_tables.h"
-#include "sinew/units/field.h"
+#include "sinew/units/letters.h"
 #include "sinew/units/ranges.h"
 
 namespace sinew::files {
 
-// Visitor (units/field.h) that lists fields.
-//
-// The fields of a table and their units can depend on other values in the table. A lister is
-// therefore given values for certain paths, so that different values show different tables.
-
-// Values given to a lister by path: the word of a choice, a text, a number.
+// Values given to a list of keys by path: the word of a choice, a text, a number. The fields of a
+// table and their units can depend on other values in the table, so that different values show
+// different tables.
 using Found = std::map<std::string, std::string>;
-
-class KeyLister {
- public:
-  using Field = units::Field;
-
-  // `kind` is the kind of the keys.
-  KeyLister(std::string_view kind, Found found) : kind_(kind), found_(std::move(found)) {}
-
-  // Keys in the order of the visits.
-  std::vector<Key> keys;
-
-  // Functions of a visitor, see units/field.h.
-  void number(const Field& f, double& value) {
-    quantity(f, KeyType::number, text_of(f, value));
-    if (const auto at = found_.find(keys.back().path); at != found_.end())
-      value = std::stod(at->second);
-  }
-  void numbers(const Field& f, std::vector<double>& values) {
-    quantity(f, KeyType::numbers, joined(f, values));
-  }
-  void polynomial(const Field& f, std::vector<double>&, std::string_view per) {
-    // A polynomial has only the limits of its units.
-    Key& key = add(f, KeyType::polynomial);
-    key.unit = f.unit;
-    key.per = per;
-  }
-  void integer(const Field& f, int& value) {
-    Key& key = add(f, KeyType::whole);
-    key.min = f.min;
-    key.max = f.max;
-    default_is(key, std::to_string(value));
-  }
-  void flag(const Field& f, bool& value) {
-    default_is(add(f, KeyType::flag), value ? "true" : "false");
-  }
-  void text(const Field& f, std::string& value) {
-    Key& key = add(f, KeyType::text);
-    default_is(key, value);
-    if (const auto at = found_.find(key.path); at != found_.end()) value = at->second;
-  }
-  void texts(const Field& f, std::vector<std::string>& values) {
-    std::string all;
-    for (const std::string& one : values) all += (all.empty() ? "" : ", ") + one;
-    default_is(add(f, KeyType::texts), all);
-  }
-  void named_numbers(const Field& f, std::map<std::string, double>&) {
-    group(f, [&](KeyLister& v) {
-      Field one = f;
-      one.name = "<name>";
-      double value = 0;
-      v.number(one, value);
-    });
-  }
-  template <class Enum>
-  void choice(const Field& f, Enum& value,
-              std::initializer_list<units::Choice<std::type_identity_t<Enum>>> choices) {
-    Key& key = add(f, KeyType::choice);
-    for (const auto& choice : choices) {
-      key.choices.emplace_back(choice.word);
-      if (choice.value == value) default_is(key, std::string(choice.word));
-    }
-    const auto at = found_.find(key.path);
-    if (at == found_.end()) return;
-    for (const auto& choice : choices)
-      if (choice.word == at->second) value = choice.value;
-  }
-  template <class Visit>
-  void group(const Field& f, Visit visit) {
-    add(f, KeyType::table);
-    inside(std::string(f.name), [&] { visit(*this); });
-  }
-  template <class T, class Visit>
-  void each(const Field& f, std::vector<T>&, Visit visit) {
-    add(f, KeyType::tables);
-    T item{};
-    item.name = "<name>";
-    inside(std::string(f.name) + ".<name>", [&] { visit(*this, item); });
-  }
-  template <class T, class Visit>
-  void list(const Field& f, std::vector<T>&, Visit visit) {
-    add(f, KeyType::list);
-    T item{};
-    inside(std::string(f.name) + "[]", [&] { visit(*this, item); });
-  }
-
- private:
-  static std::string text_of(const Field& f, double value) {
-    return std::isfinite(value) ? config::format_quantity(value, f.unit) : "not set";
-  }
-  static std::string joined(const Field& f, const std::vector<double>& values) {
-    std::string all;
-    for (const double value : values) all += (all.empty() ? "" : ", ") + text_of(f, value);
-    return all;
-  }
-  static void default_is(Key& key, std::string text) {
-    if (!key.required) key.default_text = std::move(text);
-  }
-
-  Key& add(const Field& f, KeyType type) {
-    keys.push_back({.kind = kind_,
-                    .path = prefix_ + std::string(f.name),
-                    .type = type,
-                    .required = !f.optional,
-                    .doc = std::string(f.doc)});
-    return keys.back();
-  }
-  void quantity(const Field& f, KeyType type, std::string default_text) {
-    Key& key = add(f, type);
-    key.unit = f.unit;
-    key.min = f.min;
-    key.max = f.max;
-    key.least = f.least;
-    key.most = units::range_of(f.unit).most;
-    key.why = f.why;
-    default_is(key, std::move(default_text));
-  }
-  template <class Visit>
-  void inside(const std::string& name, const Visit& visit) {
-    const std::string outer = prefix_;
-    prefix_ += name + ".";
-    visit();
-    prefix_ = outer;
-  }
-
-  std::string kind_;
-  Found found_;
-  std::string prefix_;
-};
 
 namespace {
 
@@ -176,10 +45,76 @@ KeysByPath by_path(const std::vector<Key>& keys) {
   return out;
 }
 
+std::string text_of(const units::VisitedField& f, double value) {
+  return std::isfinite(value) ? config::format_quantity(value, f.field.unit) : "not set";
+}
+
+// Returns the default of a field as it would be written.
+std::string default_of(const units::VisitedField& f) {
+  std::string all;
+  switch (f.type) {
+    case KeyType::number:
+      return text_of(f, *f.number);
+    case KeyType::numbers:
+      for (const double value : *f.numbers) all += (all.empty() ? "" : ", ") + text_of(f, value);
+      return all;
+    case KeyType::whole:
+      return std::to_string(*f.whole);
+    case KeyType::flag:
+      return *f.flag ? "true" : "false";
+    case KeyType::text:
+      return *f.text;
+    case KeyType::texts:
+      return fmt::format("{}", fmt::join(*f.texts, ", "));
+    case KeyType::choice:
+      return f.choice < f.words.size() ? std::string(f.words[f.choice]) : "";
+    default:
+      return "";
+  }
+}
+
+Key key_of(std::string_view kind, const units::VisitedField& f) {
+  Key key{.kind = std::string(kind),
+          .path = f.path,
+          .type = f.type,
+          .per = std::string(f.per),
+          .required = !f.field.optional,
+          .choices = {f.words.begin(), f.words.end()},
+          .doc = std::string(f.field.doc)};
+  if (!key.required) key.default_text = default_of(f);
+  const bool quantity = f.type == KeyType::number || f.type == KeyType::numbers;
+  // A polynomial has only the limits of its units.
+  if (quantity || f.type == KeyType::polynomial) key.unit = f.field.unit;
+  if (quantity || f.type == KeyType::whole) {
+    key.min = f.field.min;
+    key.max = f.field.max;
+  }
+  if (quantity) {
+    key.least = f.field.least;
+    key.most = units::range_of(f.field.unit).most;
+    key.why = f.field.why;
+  }
+  return key;
+}
+
+void set(units::VisitedField& f, const std::string& value) {
+  if (f.number) *f.number = std::stod(value);
+  if (f.text) *f.text = value;
+  if (const auto word = std::ranges::find(f.words, value); word != f.words.end())
+    f.choice = static_cast<std::size_t>(word - f.words.begin());
+}
+
 std::vector<Key> keys_with(std::string_view kind, const Found& found) {
-  KeyLister lister(kind, found);
-  visit_tables(lister, kind);
-  return std::move(lister.keys);
+  std::vector<Key> out;
+  units::EachField visitor(
+      [&](units::VisitedField& f) {
+        if (f.type == KeyType::item) return;
+        out.push_back(key_of(kind, f));
+        if (const auto given = found.find(f.path); given != found.end()) set(f, given->second);
+      },
+      units::EachField::Items::pattern);
+  visit_tables(visitor, kind);
+  return out;
 }
 
 std::string last_of(std::string_view path) {
@@ -453,21 +388,8 @@ std::vector<std::string> kinds_within(std::string_view kind) {
 }
 
 std::string range_of(const Key& key) {
-  if (key.type == KeyType::whole) {
-    const bool low = key.min != -units::unbounded, high = key.max != units::unbounded;
-    if (low && high) return fmt::format("{:.0f} to {:.0f}", key.min, key.max);
-    return low    ? fmt::format("at least {:.0f}", key.min)
-           : high ? fmt::format("at most {:.0f}", key.max)
-                  : "";
-  }
-  if (key.unit.empty()) return "";
-  const std::string low = config::format_quantity(key.min, key.unit);
-  const std::string high = config::format_quantity(key.max, key.unit);
-  const bool none = key.min == -units::unbounded && key.max == units::unbounded;
-  std::string out = none                           ? ""
-                    : key.max == units::unbounded  ? "at least " + low
-                    : key.min == -units::unbounded ? "at most " + high
-                                                   : fmt::format("{} to {}", low, high);
+  if (key.unit.empty() && key.type != KeyType::whole) return "";
+  std::string out = config::range_text(key.min, key.max, key.unit);
   if (key.least > 0) {
     const std::string least = "0, or at least " + config::format_quantity(key.least, key.unit);
     out = key.min == 0 && key.max == units::unbounded ? least : out + "; " + least;
@@ -476,31 +398,9 @@ std::string range_of(const Key& key) {
 }
 
 std::string_view to_text(KeyType type) {
-  switch (type) {
-    case KeyType::number:
-      return "number";
-    case KeyType::numbers:
-      return "numbers";
-    case KeyType::polynomial:
-      return "polynomial";
-    case KeyType::whole:
-      return "whole";
-    case KeyType::flag:
-      return "flag";
-    case KeyType::text:
-      return "text";
-    case KeyType::texts:
-      return "texts";
-    case KeyType::choice:
-      return "choice";
-    case KeyType::table:
-      return "table";
-    case KeyType::tables:
-      return "tables";
-    case KeyType::list:
-      return "list";
-  }
-  return "";
+  constexpr std::string_view names[] = {"number", "numbers", "polynomial", "whole",  "flag", "text",
+                                        "texts",  "choice",  "table",      "tables", "list"};
+  return names[static_cast<std::size_t>(type)];
 }
 
 // Search for keys by a name or by words.
@@ -541,18 +441,11 @@ bool begins_as(const Parts& key, const Parts& path) {
   return true;
 }
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
-}
-
 bool has_word(const Key& key, const std::string& word) {
-  if (lower(key.path).find(word) != std::string::npos) return true;
-  if (lower(key.doc).find(word) != std::string::npos) return true;
+  if (units::lower(key.path).find(word) != std::string::npos) return true;
+  if (units::lower(key.doc).find(word) != std::string::npos) return true;
   return std::ranges::any_of(key.choices, [&](const std::string& choice) {
-    return lower(choice).find(word) != std::string::npos;
+    return units::lower(choice).find(word) != std::string::npos;
   });
 }
 
@@ -606,7 +499,7 @@ std::vector<Key> with_word(const std::vector<Key>& among, const std::string& wor
     if (std::vector<Key> found = named(among, word); !found.empty()) return found;
   }
   std::vector<Key> out;
-  const std::string small = lower(word);
+  const std::string small = units::lower(word);
   for (const Key& key : among)
     if (has_word(key, small)) out.push_back(key);
   return out;

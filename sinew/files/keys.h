@@ -10,24 +10,11 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/units/field.h"
+#include "sinew/units/each_field.h"
 
 namespace sinew::files {
 
-// Type of a key's value.
-enum class KeyType {
-  number,      // a quantity, "3.2 in"
-  numbers,     // a list of quantities
-  polynomial,  // a list: c0, c1, … each with its own unit
-  whole,       // a whole number
-  flag,        // true or false
-  text,
-  texts,   // a list of texts
-  choice,  // one of the words in `choices`
-  table,   // a table of keys
-  tables,  // a table of named tables
-  list,    // [[…]]: a list of tables
-};
+using KeyType = units::FieldType;
 
 // Key in a file of one kind.
 struct Key {

@@ -17,6 +17,7 @@
 #include "sinew/config/utf8.h"
 #include "sinew/recording/rows.h"
 #include "sinew/recording/stamp.h"
+#include "sinew/units/letters.h"
 
 namespace sinew::recording {
 
@@ -63,9 +64,7 @@ void add_reference(Heading& h) {
   constexpr std::pair<std::string_view, const char*> words[] = {
       {"abs", " abs"},     {"abs.", " abs"},  {"absolute", " abs"}, {"absolut", " abs"},
       {"gauge", " gauge"}, {"rel", " gauge"}, {"rel.", " gauge"},   {"relative", " gauge"}};
-  std::string name = h.name;
-  for (char& c : name)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string name = units::lower(h.name);
   const std::string_view last = std::string_view(name).substr(name.find_last_of(" _,(") + 1);
   for (const auto& [word, reference] : words) {
     if (last != word || last == name) continue;

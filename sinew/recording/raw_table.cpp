@@ -17,19 +17,13 @@
 #include "sinew/recording/selected_rows.h"
 #include "sinew/recording/stamp.h"
 #include "sinew/recording/text.h"
+#include "sinew/units/letters.h"
 
 namespace sinew::recording {
 
 namespace {
 
 constexpr double seconds_per_day = 86400;
-
-std::string small_letters(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
-}
 
 // Usual names of a time column, in lower case, and the unit that each implies.
 struct ClockName {
@@ -103,7 +97,7 @@ class RawReader {
     }
     for (const ClockName& known : clock_names)
       for (std::size_t i = 0; i < grid_.headings().size(); ++i)
-        if (small_letters(grid_.headings()[i].name) == known.name) return i;
+        if (units::lower(grid_.headings()[i].name) == known.name) return i;
     if (const auto pair = split_seconds(grid_)) return pair->seconds;
     return std::nullopt;
   }
@@ -132,7 +126,7 @@ class RawReader {
     const bool is_given = stated != source_.units.end() ||
                           (stated = source_.clock_units.find(h.name)) != source_.clock_units.end();
     std::string unit = is_given ? stated->second : h.file_unit;
-    const auto* known = std::ranges::find(clock_names, small_letters(h.name), &ClockName::name);
+    const auto* known = std::ranges::find(clock_names, units::lower(h.name), &ClockName::name);
     if (unit.empty() && known != std::end(clock_names)) unit = known->unit;
     for (const config::Spelling& meaning : config::spellings(unit)) {
       const config::Parsed one = config::parse_quantity("1 " + meaning.unit, "s");

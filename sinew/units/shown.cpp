@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "sinew/units/letters.h"
+
 namespace sinew::units {
 namespace {
 
@@ -46,12 +48,6 @@ ShownUnit shown_unit(std::string_view name, std::string_view held, double room) 
     out.offset = -room;
   }
   return out;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 std::string in_quotes(std::string_view text) {

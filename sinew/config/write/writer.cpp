@@ -150,84 +150,54 @@ std::string to_toml(const Node& root) {
   return out;
 }
 
-void Writer::format(std::string_view kind) { add(make_text("format", newest_format(kind))); }
-
-void Writer::number(const Field& field, double& value) {
-  if (std::isfinite(value)) add(quantity_node(field.name, value, field.unit, !origins_));
-}
-
-void Writer::numbers(const Field& field, std::vector<double>& values) {
-  Node list = make_array(field.name);
-  for (double v : values) list.children.push_back(quantity_node("", v, field.unit, !origins_));
-  add(std::move(list));
-}
-
-void Writer::polynomial(const Field& field, std::vector<double>& coefficients,
-                        std::string_view per) {
-  if (coefficients.empty()) return;
-  Node list = make_array(field.name);
-  for (std::size_t k = 0; k < coefficients.size(); ++k) {
-    const std::string unit = coefficient_unit(field.unit, per, static_cast<int>(k));
-    list.children.push_back(quantity_node("", coefficients[k], unit, !origins_));
-  }
-  add(std::move(list));
-}
-
-void Writer::integer(const Field& field, int& value) { add(make_integer(field.name, value)); }
-
-void Writer::flag(const Field& field, bool& value) { add(make_flag(field.name, value)); }
-
-void Writer::text(const Field& field, std::string& value) { add(make_text(field.name, value)); }
-
-void Writer::texts(const Field& field, std::vector<std::string>& values) {
-  Node list = make_array(field.name);
-  for (const std::string& v : values) list.children.push_back(make_text("", v));
-  add(std::move(list));
-}
-
-void Writer::named_numbers(const Field& field, std::map<std::string, double>& values) {
-  enter(field.name, Node::Kind::table);
-  for (const auto& [name, value] : values) {
-    if (std::isfinite(value)) add(quantity_node(name, value, field.unit, !origins_));
-  }
-  leave();
-}
+void Writer::format(std::string_view kind) { root_.put(make_text("format", newest_format(kind))); }
 
 std::string Writer::text() const { return to_toml(root()); }
 
-void Writer::enter(std::string_view key, Node::Kind kind) {
-  const Node* there = open_.back().find(key);
-  Node node = there && there->kind == kind ? *there : make_table(key);
-  node.kind = kind;
-  open_.push_back(std::move(node));
+void Writer::put(const units::VisitedField& f) {
+  using Type = units::FieldType;
+  open_.resize(f.depth + 1);
+  if (f.type == Type::list) return enter(f, Node::Kind::array);
+  if (f.type == Type::table || f.type == Type::tables || f.type == Type::item)
+    return enter(f, Node::Kind::table);
+  const bool unset = (f.type == Type::number && !std::isfinite(*f.number)) ||
+                     (f.type == Type::polynomial && f.numbers->empty()) ||
+                     (f.type == Type::choice && f.choice == f.words.size());
+  if (unset) return;
+  const Origin* origin = origins_ ? find_origin(*origins_, f.path) : nullptr;
+  open_.back()->put(origin ? with_origin(value_of(f), *origin) : value_of(f));
 }
 
-void Writer::leave() {
-  Node done = std::move(open_.back());
-  open_.pop_back();
-  if (open_.back().kind == Node::Kind::array) {
-    open_.back().children.push_back(std::move(done));
-  } else {
-    open_.back().put(std::move(done));
+// Opens a table; one that another struct has written is continued.
+void Writer::enter(const units::VisitedField& f, Node::Kind kind) {
+  Node& in = *open_.back();
+  Node* there = in.find(f.name);
+  if (!there || there->kind != kind) {
+    Node node = make_table(f.name);
+    node.kind = kind;
+    there = in.is_table() ? &in.put(std::move(node)) : &in.children.emplace_back(std::move(node));
   }
+  open_.push_back(there);
 }
 
-void Writer::add(Node value) {
-  const Origin* origin = origins_ ? find_origin(*origins_, path_of(value.key)) : nullptr;
-  open_.back().put(origin ? with_origin(std::move(value), *origin) : std::move(value));
-}
-
-std::string Writer::path_of(std::string_view key) const {
-  std::string path;
-  for (std::size_t i = 1; i < open_.size(); ++i) {
-    const Node& node = open_[i];
-    if (!node.key.empty()) {
-      path += (path.empty() ? "" : ".") + node.key;
-    } else {
-      path += fmt::format("[{}]", open_[i - 1].children.size());
+Node Writer::value_of(const units::VisitedField& f) const {
+  using Type = units::FieldType;
+  if (f.type == Type::number) return quantity_node(f.name, *f.number, f.field.unit, !origins_);
+  if (f.type == Type::whole) return make_integer(f.name, *f.whole);
+  if (f.type == Type::flag) return make_flag(f.name, *f.flag);
+  if (f.type == Type::text) return make_text(f.name, *f.text);
+  if (f.type == Type::choice) return make_text(f.name, std::string(f.words[f.choice]));
+  Node list = make_array(f.name);
+  if (f.type == Type::texts)
+    for (const std::string& text : *f.texts) list.children.push_back(make_text("", text));
+  else
+    for (std::size_t k = 0; k < f.numbers->size(); ++k) {
+      const std::string unit = f.type == Type::numbers
+                                   ? std::string(f.field.unit)
+                                   : coefficient_unit(f.field.unit, f.per, static_cast<int>(k));
+      list.children.push_back(quantity_node("", (*f.numbers)[k], unit, !origins_));
     }
-  }
-  return path + (path.empty() ? "" : ".") + std::string(key);
+  return list;
 }
 
 }  // namespace sinew::config

@@ -6,11 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <type_traits>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/experiment/experiment.fields.h"
+#include "sinew/units/each_field.h"
 
 namespace sinew::identify {
 
@@ -20,57 +19,6 @@ using experiment::Experiment;
 
 constexpr std::array<std::string_view, 5> group_names = {"friction", "damping", "dead-time",
                                                          "volume", "leak"};
-
-// Visitor of units/field.h that collects the parameters with their addresses.
-class NumberFinder {
- public:
-  using Field = units::Field;
-
-  std::vector<MachineNumber> found;
-
-  void number(const Field& f, double& value) {
-    found.push_back({path_ + std::string(f.name), std::string(f.unit), f.min, f.max, &value});
-  }
-  void named_numbers(const Field& f, std::map<std::string, double>& values) {
-    for (auto& [name, value] : values)
-      found.push_back(
-          {fmt::format("{}{}.{}", path_, f.name, name), std::string(f.unit), f.min, f.max, &value});
-  }
-  template <class Visit>
-  void group(const Field& f, Visit visit) {
-    within(f.name, [&] { visit(*this); });
-  }
-  template <class T, class Visit>
-  void each(const Field& f, std::vector<T>& items, Visit visit) {
-    within(f.name, [&] {
-      for (T& item : items) within(item.name, [&] { visit(*this, item); });
-    });
-  }
-
-  // Fields without a parameter that a fit could change alone.
-  void numbers(const Field&, std::vector<double>&) {}
-  void polynomial(const Field&, std::vector<double>&, std::string_view) {}
-  void integer(const Field&, int&) {}
-  void flag(const Field&, bool&) {}
-  void text(const Field&, std::string&) {}
-  void texts(const Field&, std::vector<std::string>&) {}
-  template <class Enum>
-  void choice(const Field&, Enum&,
-              std::initializer_list<units::Choice<std::type_identity_t<Enum>>>) {}
-  template <class T, class Visit>
-  void list(const Field&, std::vector<T>&, Visit) {}
-
- private:
-  template <class Inside>
-  void within(std::string_view name, Inside inside) {
-    const std::size_t before = path_.size();
-    path_ += std::string(name) + ".";
-    inside();
-    path_.resize(before);
-  }
-
-  std::string path_;
-};
 
 void friction_keys(const Experiment& e, std::vector<std::string>& out) {
   for (const robot::Joint& j : e.robot.joints)
@@ -135,10 +83,15 @@ std::vector<std::string> keys_of_group(std::string_view group, const Experiment&
 }  // namespace
 
 std::vector<MachineNumber> machine_numbers(Experiment& e) {
-  NumberFinder finder;
-  experiment::machine_fields(finder, e);
-  finder.group({.name = "start"}, [&](auto& g) { experiment::fields(g, e.start); });
-  return std::move(finder.found);
+  std::vector<MachineNumber> out;
+  units::EachField visitor([&](const units::VisitedField& f) {
+    const bool of_list = f.path.find('[') != f.path.npos;
+    if (f.number && !of_list)
+      out.push_back({f.path, std::string(f.field.unit), f.field.min, f.field.max, f.number});
+  });
+  experiment::machine_fields(visitor, e);
+  visitor.group({.name = "start"}, [&](auto& g) { experiment::fields(g, e.start); });
+  return out;
 }
 
 std::vector<std::string> machine_keys(Experiment& e, const std::vector<std::string>& requested) {
