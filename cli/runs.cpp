@@ -369,7 +369,7 @@ ExitCode tell(const AnalyzeOptions& options, const Messages& messages, const sig
     run::write_file(options.out, json);
   }
   if (options.verdicts) {
-    fmt::print("{}\n", report::to_json(a.verdicts));
+    fmt::print("{}\n", report::to_json(a.verdicts).text());
   } else if (options.json) {
     fmt::print("{}", json);
   } else {

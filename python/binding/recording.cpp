@@ -76,7 +76,7 @@ void summarize(Recording& recording) {
   const analysis::Analysis& a = *recording.analysis;
   recording.warnings = a.summary.warnings;
   recording.summary = to_json(a.summary);
-  recording.verdicts = report::to_json(a.verdicts);
+  recording.verdicts = report::to_json(a.verdicts).text();
 }
 
 std::vector<Recording::Channel> Recording::channels() const {

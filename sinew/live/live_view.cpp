@@ -214,7 +214,7 @@ std::string LiveView::frame(Position& position) {
     out += ",\"piece\":" + page_.piece(feed_.since(position.samples));
   if (changes_.size() > position.changes) {
     const auto from = changes_.begin() + static_cast<std::ptrdiff_t>(position.changes);
-    out += ",\"changes\":" + report::to_json(std::vector(from, changes_.end()));
+    out += ",\"changes\":" + report::to_json(std::vector(from, changes_.end())).text();
     position.changes = changes_.size();
   }
   return out + "}";

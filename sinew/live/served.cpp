@@ -140,7 +140,7 @@ Reply RunsPages::list() {
   content.title = "Runs";
   content.json = fmt::format(R"({{"folder":{},"most":{},"runs":[{}]}})",
                              Json(folder_.string()).text(), most_compared, runs);
-  content.connect = " 'self'";  // for the pictures
+  content.connect = "; connect-src 'self'";  // for the pictures
   return {200, report::fill(report::run_list_template(), content)};
 }
 
@@ -156,7 +156,7 @@ Reply RunsPages::picture_of(std::size_t run) const {
   } catch (const config::Error&) {
     // The picture is drawn without a machine. The run's own page reports the error.
   }
-  return {200, report::picture(resolved), "image/svg+xml"};
+  return {200, report::picture(resolved), "application/json"};
 }
 
 Reply RunsPages::compared(std::string_view numbers) const {

@@ -1,5 +1,6 @@
 // List of the runs in a folder, served by `sinew view`: search runs, open one, compare several.
 import { Appearance } from './appearance.js';
+import { icon_of } from './icon.js';
 import { by_id, element, on_click, start_page } from './page.js';
 import { Units } from './units.js';
 
@@ -16,7 +17,7 @@ class RunList {
     by_id('search').addEventListener('input', () => this.search());
     on_click('compare', () => (location.href = `compare/${this.ticked.join(',')}`));
     on_click('clear', () => this.clear());
-    new Appearance(new Units(0), { on_units() {}, on_colors() {}, on_print() {} });
+    new Appearance(new Units(0), { on_units() {}, on_colors: () => this.runs.forEach((run) => run.recolor()), on_print() {} });
     this.show_ticked();
   }
 
@@ -26,12 +27,29 @@ class RunList {
     const facts = [run.date, run.duration_s === undefined ? 'not finished' : `${run.duration_s.toFixed(2)} s`,
                    run.robot && `robot ${run.robot}`, run.seed && `seed ${run.seed}`].filter(Boolean).join(' · ');
     const root = element('li', { 'data-run': run.run },
-      box, element('img', { src: `picture/${run.run}`, alt: '', loading: 'lazy', width: 96, height: 96 }),
+      box, this.image(run),
       element('div', {}, element('h2', {}, element('a', { href: `run/${run.run}` }, title)),
         run.about ? element('p', {}, run.about) : null,
         element('p', { class: 'quiet' }, facts), element('p', { class: 'quiet' }, run.folder)));
     box.addEventListener('change', () => this.tick(run.run, box.checked));
     return { run, root, box, text: `${title} ${run.about} ${facts} ${run.folder}`.toLowerCase() };
+  }
+
+  // Returns the picture of a run, which is loaded when it comes into the window.
+  image(run) {
+    const image = element('img', { alt: '', width: 96, height: 96 });
+    const load = async () => {
+      const reply = await fetch(`picture/${run.run}`);
+      image.src = await icon_of(reply.ok ? await reply.json() : {}, by_id('sheet'));
+    };
+    const seen = new IntersectionObserver(([entry]) => {
+      if (!entry.isIntersecting) return;
+      seen.disconnect();
+      load();
+    });
+    seen.observe(image);
+    run.recolor = () => image.src && load();
+    return image;
   }
 
   search() {

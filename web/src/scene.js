@@ -9,6 +9,8 @@ const trail_seconds = 3;
 const window_seconds = 0.01;  // a valve is lit if it was open at any time within it
 
 export class Scene {
+  room = { above: 28, margin: 4 };  // space for time and button above, and around the drawing [px]
+
   constructor(canvas, spec, columns, units, duration) {
     Object.assign(this, { canvas, spec, columns, units, duration });
     this.follow = true;
@@ -150,7 +152,7 @@ export class Scene {
     const body = this.pose(0, t);
     const x = this.follow ? this.box.own.x.map((v) => v + body.x) : this.box.wide.x;
     const y = this.box.own.y;
-    const above = 28, margin = 4;  // space for time and button above
+    const { above, margin } = this.room;
     const high = height - above - margin;
     const scale = Math.min((width - 2 * margin) / (x[1] - x[0]), high / (y[1] - y[0]));
     const left = width / 2 - (scale * (x[0] + x[1])) / 2;

@@ -56,16 +56,21 @@ test('a study has every row of the table, and the role of each column', () => st
 for (const colorScheme of ['light', 'dark'])
   test(`every view is saved on white and not changed on the page: ${colorScheme}`, () => study('walk', async (page) => {
     await settle(page);
-    const rows = await page.evaluate(() => window.sinew.page.filter.rows.length);
+    // Rows that a view shows: those with a value in both of its columns.
+    const rows_in = (view) => page.evaluate((id) => {
+      const { views, filter } = window.sinew.page;
+      return (views.find((v) => v.root.id === id)?.chart.rows ?? filter.rows).length;
+    }, view);
     for (const view of ['history', 'scatter', 'surface', 'parallel']) {
-      const root = page.locator(`#${view}`), before = await drawn(page, view);
+      const root = page.locator(`#${view}`), before = await drawn(page, view), rows = await rows_in(view);
       const { name, text } = await vectors_of(page, root);
       assert.equal(await drawn(page, view), before, view);
+      assert.ok(rows > 90, `${view}: ${rows} rows`);
       const title = await root.locator('h2').textContent();
       assert.ok(text.includes(`<title>${title}</title>`) && name.includes(title.toLowerCase().replaceAll(' ', '-')), `${name}: ${title}`);
       const words = [...text.matchAll(/<text [^>]*>([^<]+)</g)].map((m) => m[1]);
       assert.ok(words.length > 6 && words.some((w) => /\d/.test(w)), words.join('; '));
-      const lines = [...text.matchAll(/ d="([^"]+)"/g)].map((m) => m[1].split('M').length - 1).reduce((sum, n) => sum + n, 0);
+      const lines = [...text.matchAll(/ d="([^"]+)"/g)].map((m) => m[1].split('M').length - 1).reduce((sum, n) => sum + n, 0) + text.split('<circle ').length - 1;
       const marks = view === 'surface' ? [...text.matchAll(/<rect [^>]*width="2" height="2"/g)].length : lines;
       assert.ok(marks >= rows, `${view}: ${marks} marks of ${rows} rows`);
     }

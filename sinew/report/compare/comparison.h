@@ -20,6 +20,7 @@
 #include "sinew/analysis/verdict/compare.h"
 #include "sinew/analysis/verdict/reported.h"
 #include "sinew/config/node.h"
+#include "sinew/json/json.h"
 #include "sinew/report/page/page.h"
 #include "sinew/report/page/panels.h"
 #include "sinew/report/page/parameters.h"
@@ -73,7 +74,7 @@ struct ComparedRun {
   std::vector<Plot> charts;  // charts of the test stand
   Scene scene;               // drawing of the machine; empty for a stand, or without angles
   Stand stand;               // drawing of the stand; empty for a machine
-  std::string phases;        // JSON (content.h)
+  Json phases;               // (content.h)
   analysis::Summary summary;
   std::vector<analysis::Verdict> verdicts;
   std::vector<Parameter> parameters;

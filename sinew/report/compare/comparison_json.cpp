@@ -10,8 +10,6 @@
 namespace sinew::report {
 namespace {
 
-std::string text_of(const Json& json, int indent) { return json.text(indent); }
-
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 template <class T>
@@ -211,7 +209,7 @@ Json charts_of(const Comparison& c, RunSamples& samples) {
       for (const Plot& own : c.runs[i].charts) {
         if (own.title != first.title) continue;
         Columns columns = samples.columns(i);
-        chart = Json::parse(charts_json({own}, columns))[0];
+        chart = charts_json({own}, columns)[0];
         for (Json& curve : chart["curves"]) {
           curve["run"] = i;
           curves.push_back(std::move(curve));
@@ -239,16 +237,14 @@ std::string foot_of(const Comparison& c) {
 
 }  // namespace
 
-std::string to_json(const Comparison& comparison) {
-  return text_of(tables_of(comparison), 2) + "\n";
-}
+std::string to_json(const Comparison& comparison) { return tables_of(comparison).text(2) + "\n"; }
 
 Content content(const Comparison& comparison) {
   Json out = tables_of(comparison);
   std::string title = "Compare";
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
     const ComparedRun& run = comparison.runs[i];
-    out["runs"][i]["phases"] = Json::parse(run.phases);
+    out["runs"][i]["phases"] = run.phases;
     out["runs"][i]["atmosphere"] = run.atmosphere;
     title += (i > 0 ? " · " : " ") + run.label;
   }
@@ -259,11 +255,11 @@ Content content(const Comparison& comparison) {
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
     Columns columns = samples.columns(i);
     const ComparedRun& run = comparison.runs[i];
-    out["runs"][i]["scene"] = Json::parse(to_json(run.scene, columns));
-    out["runs"][i]["stand"] = Json::parse(to_json(run.stand, columns));
+    out["runs"][i]["scene"] = to_json(run.scene, columns);
+    out["runs"][i]["stand"] = to_json(run.stand, columns);
   }
-  out["samples"] = Json::parse(to_json(samples.blob().layout()));
-  return {title, text_of(out, -1), samples.blob().base64()};
+  out["samples"] = to_json(samples.blob().layout());
+  return {title, out.text(), samples.blob().base64()};
 }
 
 std::string page(const Comparison& comparison, const units::ShownUnits& units) {

@@ -14,16 +14,22 @@
 #include "sinew/analysis/record/derived.h"
 #include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/record/record.h"
-#include "sinew/config/compose.h"
-#include "sinew/config/node.h"
 #include "sinew/report/page/channels.h"
 #include "sinew/report/page/panels.h"
+#include "sinew/report/page/parameters.h"
 #include "sinew/report/page/stand.h"
 #include "sinew/robot/legs.h"
 
 namespace sinew::report {
 
+namespace {
+
+using units::ShownUnit;
+using Kind = Curve::Kind;
+
 // --- Common part of the figures of one run: samples in shown units, shaded spans, captions ---
+
+constexpr int most_colors = 4;  // in one plot; more go into the next one below
 
 // Description of a run in captions and curves.
 struct RunDescription {
@@ -32,8 +38,49 @@ struct RunDescription {
   Curve::Kind kind = Curve::Kind::computed;
 };
 
+bool is_simulated(const signals::Table& table) {
+  return std::ranges::any_of(
+      table.series, [](const signals::Series& s) { return s.topic.name.starts_with("/true/"); });
+}
+
 // Returns the description of a run. `title` and `robot` may be empty.
-RunDescription words_of(const Run& run, const std::string& title, const std::string& robot);
+RunDescription words_of(const Run& run, const std::string& title, const std::string& robot) {
+  const bool simulated = is_simulated(run.analysis.table);
+  RunDescription out{.kind = simulated ? Kind::computed : Kind::measured};
+  out.run = title.empty() ? run.name : "“" + title + "”";
+  if (!title.empty() && !run.name.empty()) out.run += " (" + run.name + ")";
+  std::vector<std::string> parts;
+  parts.push_back(simulated ? "simulated" : "from a log without the channels of a simulation");
+  if (!robot.empty()) parts.push_back("robot " + robot);
+  for (const auto& [key, word] : {std::pair("seed", "seed "), std::pair("sinew_version", "Sinew ")})
+    if (const std::string value = value_text(run.resolved, key); !value.empty())
+      parts.push_back(word + value);
+  out.source = fmt::format("{}", fmt::join(parts, ", "));
+  return out;
+}
+
+// Converts a time of a table  [s].
+double seconds_of(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
+
+// Returns an axis of a quantity in a unit; plain numbers have the unit "-".
+Axis axis_of(std::string name, const units::ShownUnit& unit) {
+  return {
+      .name = std::move(name), .unit = unit.name.empty() ? "-" : unit.label(), .scale = unit.scale};
+}
+
+// Returns the greatest magnitude of the finite values; 0 without any.
+double size_of(const signals::Column& values) {
+  double out = 0;
+  for (const double v : values)
+    if (std::isfinite(v)) out = std::max(out, std::fabs(v));
+  return out;
+}
+
+// Returns a title for use within a sentence, "joint angles" for "Joint angles".
+std::string in_sentence(std::string title) {
+  if (title.size() > 1 && !(title[1] >= 'A' && title[1] <= 'Z')) title[0] |= 0x20;
+  return title;
+}
 
 // Makes the figures of one run out of its channels.
 class Maker {
@@ -86,53 +133,6 @@ class Maker {
   std::string broken_;  // description of the faults
 };
 
-// Converts a time of a table  [s].
-inline double seconds_of(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
-
-// Returns an axis of a quantity in a unit; plain numbers have the unit "-".
-Axis axis_of(std::string name, const units::ShownUnit& unit);
-
-// Returns the greatest magnitude of the finite values; 0 without any.
-double size_of(const signals::Column& values);
-
-// Returns a title for use within a sentence, "joint angles" for "Joint angles".
-std::string in_sentence(std::string title);
-
-namespace {
-
-using Kind = Curve::Kind;
-
-constexpr int most_colors = 4;  // in one plot; more go into the next one below
-
-std::string text_at(const config::Node& root, std::string_view key) {
-  const config::Node* node = root.find(key);
-  if (!node) return "";
-  const config::Node* value = node->find("value");
-  return config::written(value ? *value : *node);
-}
-
-bool is_simulated(const signals::Table& table) {
-  return std::ranges::any_of(
-      table.series, [](const signals::Series& s) { return s.topic.name.starts_with("/true/"); });
-}
-
-}  // namespace
-
-RunDescription words_of(const Run& run, const std::string& title, const std::string& robot) {
-  const bool simulated = is_simulated(run.analysis.table);
-  RunDescription out{.kind = simulated ? Kind::computed : Kind::measured};
-  out.run = title.empty() ? run.name : "“" + title + "”";
-  if (!title.empty() && !run.name.empty()) out.run += " (" + run.name + ")";
-  std::vector<std::string> parts;
-  parts.push_back(simulated ? "simulated" : "from a log without the channels of a simulation");
-  if (!robot.empty()) parts.push_back("robot " + robot);
-  for (const auto& [key, word] : {std::pair("seed", "seed "), std::pair("sinew_version", "Sinew ")})
-    if (const std::string value = text_at(run.resolved, key); !value.empty())
-      parts.push_back(word + value);
-  out.source = fmt::format("{}", fmt::join(parts, ", "));
-  return out;
-}
-
 void Maker::shade(const std::vector<analysis::MachineFault>& faults, double end) {
   std::vector<std::string> words;
   for (const analysis::MachineFault& f : faults) {
@@ -143,13 +143,6 @@ void Maker::shade(const std::vector<analysis::MachineFault>& faults, double end)
                                 std::isfinite(f.end) ? fmt::format("to {:.10g} s", f.end) : "on"));
   }
   broken_ = fmt::format("{}", fmt::join(words, ", "));
-}
-
-double size_of(const signals::Column& values) {
-  double out = 0;
-  for (const double v : values)
-    if (std::isfinite(v)) out = std::max(out, std::fabs(v));
-  return out;
 }
 
 double Maker::largest(const Channel& channel) const {
@@ -221,16 +214,6 @@ void Maker::finish(Figure figure) {
   list.push_back(std::move(figure));
 }
 
-Axis axis_of(std::string name, const units::ShownUnit& unit) {
-  return {
-      .name = std::move(name), .unit = unit.name.empty() ? "-" : unit.label(), .scale = unit.scale};
-}
-
-std::string in_sentence(std::string title) {
-  if (title.size() > 1 && !(title[1] >= 'A' && title[1] <= 'Z')) title[0] |= 0x20;
-  return title;
-}
-
 std::string Maker::notes(const Plot& panel) const {
   std::string out;
   if (std::ranges::any_of(panel.curves, [](const Curve& c) { return c.kind == Kind::desired; }))
@@ -284,8 +267,6 @@ void Maker::over(const std::string& name, const std::string& title, const Axis& 
   figure.plots.push_back({.x = x, .y = y, .curves = std::move(curves), .equal_scale = equal_scale});
   finish(std::move(figure));
 }
-
-namespace {
 
 // --- figures of channels that a user chose ---
 
@@ -441,9 +422,6 @@ std::vector<Figure> channel_figures(Maker& make, const Channels& channels,
   for (const ChosenFigure& one : chosen) make.finish(figure_of(make, channels, panels, one));
   return std::move(make.list);
 }
-
-using units::ShownUnit;
-using Kind = Curve::Kind;
 
 // Adds the path of a foot. `leg` is empty for a machine with one leg.
 void add_foot_path(Maker& make, const Channels& channels, const std::string& leg) {

@@ -4,22 +4,10 @@
 #include <optional>
 
 #include "sinew/config/quantity.h"
+#include "sinew/report/page/parameters.h"
 
 namespace sinew::report {
 namespace {
-
-// Returns the value of a key, without its source; nullptr if the key is missing.
-const config::Node* node_at(const config::Node& table, std::string_view key) {
-  const config::Node* node = table.find(key);
-  if (node == nullptr) return nullptr;
-  const config::Node* value = node->find("value");
-  return value != nullptr ? value : node;
-}
-
-std::string written_at(const config::Node& table, std::string_view key) {
-  const config::Node* node = node_at(table, key);
-  return node != nullptr ? config::written(*node) : "";
-}
 
 // A number with its unit: "0.004 1/count".
 struct Number {
@@ -36,13 +24,13 @@ std::optional<Number> number_in(std::string_view text) {
 }
 
 std::optional<PageChange> change_of(const config::Node& table) {
-  const std::optional<Number> time = number_in(written_at(table, "time"));
-  PageChange out{.key = written_at(table, "key"), .unit = "", .leg = written_at(table, "leg")};
+  const std::optional<Number> time = number_in(value_text(table, "time"));
+  PageChange out{.key = value_text(table, "key"), .unit = "", .leg = value_text(table, "leg")};
   if (!time || time->unit != "s" || out.key.empty()) return std::nullopt;
   out.time = time->value;
-  out.release = written_at(table, "release") == "true";
+  out.release = value_text(table, "release") == "true";
   if (out.release) return out;
-  const std::optional<Number> value = number_in(written_at(table, "value"));
+  const std::optional<Number> value = number_in(value_text(table, "value"));
   if (!value) return std::nullopt;
   out.value = value->value;
   out.unit = value->unit.empty() ? "1" : value->unit;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sinew/config/node.h"
+#include "sinew/json/json.h"
 
 namespace sinew::report {
 
@@ -25,6 +26,6 @@ std::vector<PageChange> changes_of(const config::Node& resolved);
 
 // Returns a JSON array: [{"time": 3, "key": …, "value": 0.004, "unit": "1/count"}, …]; null is the
 // value of a release.
-std::string to_json(const std::vector<PageChange>& changes);
+Json to_json(const std::vector<PageChange>& changes);
 
 }  // namespace sinew::report

@@ -157,13 +157,6 @@ std::string to_base64(std::string_view bytes) {
 
 namespace {
 
-std::string text_at(const config::Node& root, std::string_view key) {
-  const config::Node* node = root.find(key);
-  if (!node) return "";
-  const config::Node* value = node->find("value");
-  return config::written(value ? *value : *node);
-}
-
 double end_of(const Channels& channels) {
   std::int64_t end = 0;
   for (const signals::Table* table : channels.tables())
@@ -172,49 +165,16 @@ double end_of(const Channels& channels) {
   return static_cast<double>(end) / 1e9;
 }
 
-struct About {
-  std::string title, reproduces, robot;
-  double atmosphere = 0;
-};
-
-// Builds a JSON object from members in JSON.
-class Object {
- public:
-  void put(std::string_view key, std::string_view json) {
-    text_ += text_.empty() ? "{\"" : ",\"";
-    text_.append(key).append("\":").append(json);
-  }
-  std::string text() const { return text_ + "}"; }
-
- private:
-  std::string text_;
-};
-
-Object head(const Run& run, const About& about) {
-  Object out;
-  out.put("format", to_json(std::string("sinew.report/1")));
-  out.put("title", to_json(about.title));
-  out.put("reproduces", to_json(about.reproduces));
-  out.put("name", to_json(run.name));
-  out.put("robot", to_json(about.robot));
-  out.put("seed", to_json(text_at(run.resolved, "seed")));
-  out.put("version", to_json(text_at(run.resolved, "sinew_version")));
-  out.put("atmosphere", config::format_number(about.atmosphere));
-  return out;
-}
-
-// Adds the members that pages of all runs have.
-Content finish(Object json, const Run& run, const Blob& blob) {
-  const analysis::Summary& summary = run.analysis.summary;
-  json.put("verdicts", to_json(run.analysis.verdicts));
-  json.put("summary", analysis::to_json(summary));
-  json.put("parameters", to_json(parameters(run.resolved)));
-  json.put("samples", to_json(blob.layout()));
-  const config::UnitsToShow shown = config::units_to_show({.now = run.units, .run = &run.resolved});
-  return {.title = summary.title.empty() ? run.name : summary.title,
-          .json = json.text(),
-          .samples = blob.base64(),
-          .units = units_json(shown.units)};
+// Returns the members that do not depend on the samples.
+Json head(const Run& run, const analysis::Machine& machine) {
+  return {{"format", "sinew.report/1"},
+          {"title", machine.title},
+          {"reproduces", machine.reproduces},
+          {"name", run.name},
+          {"robot", machine.robot.name},
+          {"seed", value_text(run.resolved, "seed")},
+          {"version", value_text(run.resolved, "sinew_version")},
+          {"atmosphere", machine.atmosphere}};
 }
 
 // Returns the warning at the top of the page of a run that ended early.
@@ -257,26 +217,33 @@ Content content(const Run& run) {
 
   Blob blob;
   Columns columns(channels, blob);
-  Object json =
-      head(run, {machine.title, machine.reproduces, machine.robot.name, machine.atmosphere});
-  json.put("duration", config::format_number(end_of(channels)));
-  json.put("phases", phases_of(record, machine));
-  if (!summary.faults.empty()) json.put("faults", to_json(summary.faults, end_of(channels)));
+  Json json = head(run, machine);
+  json["duration"] = end_of(channels);
+  json["phases"] = phases_of(record, machine);
+  if (!summary.faults.empty()) json["faults"] = to_json(summary.faults, end_of(channels));
   if (const std::vector<PageChange> changes = changes_of(run.resolved); !changes.empty())
-    json.put("changes", to_json(changes));
-  json.put("panels", panels_json(panels(channels, machine), columns));
-  json.put("scene", to_json(scene_of_run, columns));
+    json["changes"] = to_json(changes);
+  json["panels"] = panels_json(panels(channels, machine), columns);
+  json["scene"] = to_json(scene_of_run, columns);
   if (machine.stand) {
-    json.put("stand", to_json(stand_of_run, columns));
-    json.put("charts", charts_json(stand_charts(channels, stand_of_run), columns));
+    json["stand"] = to_json(stand_of_run, columns);
+    json["charts"] = charts_json(stand_charts(channels, stand_of_run), columns);
   }
   std::vector<analysis::Warning> warnings = end_warning(run);
   std::ranges::move(omission_warning(blob, channels, record.stretches().size()),
                     std::back_inserter(warnings));
   std::ranges::move(analysis::cut_logs(table), std::back_inserter(warnings));
   std::ranges::copy(warned, std::back_inserter(warnings));
-  json.put("warnings", to_json(warnings));
-  return finish(std::move(json), run, blob);
+  json["warnings"] = to_json(warnings);
+  json["verdicts"] = to_json(verdicts);
+  json["summary"] = Json::parse(analysis::to_json(summary));
+  json["parameters"] = to_json(parameters(run.resolved));
+  json["samples"] = to_json(blob.layout());
+  const config::UnitsToShow shown = config::units_to_show({.now = run.units, .run = &run.resolved});
+  return {.title = summary.title.empty() ? run.name : summary.title,
+          .json = json.text(),
+          .samples = blob.base64(),
+          .units = units_json(shown.units)};
 }
 
 }  // namespace sinew::report

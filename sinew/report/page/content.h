@@ -14,6 +14,7 @@
 #include "sinew/analysis/record/record.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/config/shown_units.h"
+#include "sinew/json/json.h"
 #include "sinew/report/page/channels.h"
 #include "sinew/report/page/panels.h"
 #include "sinew/report/page/parameters.h"
@@ -100,30 +101,20 @@ class Columns {
 };
 
 // Return JSON; a channel is the index of its column, or null.
-std::string panels_json(const std::vector<Plot>& panels, Columns& columns);  // over time
-std::string charts_json(const std::vector<Plot>& charts, Columns& columns);
-std::string to_json(const Scene& scene, Columns& columns);  // null if it is empty
-std::string to_json(const Stand& stand, Columns& columns);  // null if it is empty
-std::string to_json(const std::vector<Parameter>& parameters);
-std::string to_json(const std::vector<analysis::Warning>& warnings);
+Json panels_json(const std::vector<Plot>& panels, Columns& columns);  // over time
+Json charts_json(const std::vector<Plot>& charts, Columns& columns);
+Json to_json(const Scene& scene, Columns& columns);  // null if it is empty
+Json to_json(const Stand& stand, Columns& columns);  // null if it is empty
+Json to_json(const std::vector<Parameter>& parameters);
+Json to_json(const std::vector<analysis::Warning>& warnings);
 // `end` is that of the run [s].
-std::string to_json(const std::vector<analysis::MachineFault>& faults, double end);
-std::string to_json(const std::vector<analysis::Verdict>& verdicts);
-std::string to_json(const Blob::Layout& layout);
-std::string to_json(const std::string& text);
-std::string to_json(double number);
-
-// A member of an object and its new JSON; an empty text removes the member. phases/stretches is the
-// member `stretches` of the member `phases`.
-struct ChangedMember {
-  std::string name, json;
-};
-// Returns the object with these members changed.
-std::string with_members(const std::string& object, const std::vector<ChangedMember>& members);
+Json to_json(const std::vector<analysis::MachineFault>& faults, double end);
+Json to_json(const std::vector<analysis::Verdict>& verdicts);
+Json to_json(const Blob::Layout& layout);
 
 // Returns the phases of a run as JSON, without the stretches if there are more than a screen can
 // show.
-std::string phases_of(const analysis::Record& record, const analysis::Machine& machine);
+Json phases_of(const analysis::Record& record, const analysis::Machine& machine);
 
 inline constexpr std::size_t most_stretches = 4000;
 

@@ -13,8 +13,6 @@ namespace {
 
 using robot::Point;
 
-std::string text_of(const Json& json) { return json.text(); }
-
 // Returns the index of a channel's column, by default for a pose, or null.
 Json column_of(const Channel& channel, Columns& columns, Blob::As as = Blob::As::pose) {
   const int column = columns.of(channel, as);
@@ -143,7 +141,7 @@ Json vector_of(const Channel& x, Columns& columns) {
 
 }  // namespace
 
-std::string panels_json(const std::vector<Plot>& panels, Columns& columns) {
+Json panels_json(const std::vector<Plot>& panels, Columns& columns) {
   Json out = Json::array();
   for (const Plot& p : panels) {
     Json lines = Json::array();
@@ -158,11 +156,11 @@ std::string panels_json(const std::vector<Plot>& panels, Columns& columns) {
     out.push_back(
         {{"group", p.group}, {"title", p.title}, {"unit", p.y.unit}, {"lines", std::move(lines)}});
   }
-  return text_of(out);
+  return out;
 }
 
-std::string to_json(const Scene& scene, Columns& columns) {
-  if (scene.empty()) return "null";
+Json to_json(const Scene& scene, Columns& columns) {
+  if (scene.empty()) return {};
   Json out = shapes_of(scene);
   out["frames"] = frames_of(scene, columns);
   out["muscles"] = muscles_of(scene, columns);
@@ -181,37 +179,37 @@ std::string to_json(const Scene& scene, Columns& columns) {
                            {"desired", vector_of(foot.desired_path, columns)},
                            {"force", vector_of(foot.force, columns)},
                            {"contact", column_of(foot.contact, columns)}});
-  return text_of(out);
+  return out;
 }
 
-std::string to_json(const Stand& stand, Columns& columns) {
-  if (stand.empty()) return "null";
-  return text_of({{"element", stand.element},
-                  {"count", stand.count},
-                  {"turns", stand.turns},
-                  {"bore", stand.bore},
-                  {"rod", stand.rod},
-                  {"stroke", stand.stroke},
-                  {"load", word(stand.load)},
-                  {"air", word(stand.air)},
-                  {"shortest", stand.shortest},
-                  {"longest", stand.longest},
-                  {"least", stand.least},
-                  {"most", stand.most},
-                  {"heaviest", stand.heaviest},
-                  {"weight_step", stand.weight_step},
-                  {"length", column_of(stand.length, columns)},
-                  {"diameter", column_of(stand.diameter, columns)},
-                  {"pressure", column_of(stand.pressure, columns)},
-                  {"desired", column_of(stand.desired, columns)},
-                  {"tension", column_of(stand.tension, columns)},
-                  {"weight", column_of(stand.weight, columns)},
-                  {"inlet", column_of(stand.inlet, columns)},
-                  {"exhaust", column_of(stand.exhaust, columns)},
-                  {"drawn_from", stand.drawn_from}});
+Json to_json(const Stand& stand, Columns& columns) {
+  if (stand.empty()) return {};
+  return {{"element", stand.element},
+          {"count", stand.count},
+          {"turns", stand.turns},
+          {"bore", stand.bore},
+          {"rod", stand.rod},
+          {"stroke", stand.stroke},
+          {"load", word(stand.load)},
+          {"air", word(stand.air)},
+          {"shortest", stand.shortest},
+          {"longest", stand.longest},
+          {"least", stand.least},
+          {"most", stand.most},
+          {"heaviest", stand.heaviest},
+          {"weight_step", stand.weight_step},
+          {"length", column_of(stand.length, columns)},
+          {"diameter", column_of(stand.diameter, columns)},
+          {"pressure", column_of(stand.pressure, columns)},
+          {"desired", column_of(stand.desired, columns)},
+          {"tension", column_of(stand.tension, columns)},
+          {"weight", column_of(stand.weight, columns)},
+          {"inlet", column_of(stand.inlet, columns)},
+          {"exhaust", column_of(stand.exhaust, columns)},
+          {"drawn_from", stand.drawn_from}};
 }
 
-std::string charts_json(const std::vector<Plot>& charts, Columns& columns) {
+Json charts_json(const std::vector<Plot>& charts, Columns& columns) {
   Json out = Json::array();
   for (const Plot& c : charts) {
     Json curves = Json::array();
@@ -222,14 +220,14 @@ std::string charts_json(const std::vector<Plot>& charts, Columns& columns) {
                    {"curves", std::move(curves)},
                    {"note", c.note}});
   }
-  return text_of(out);
+  return out;
 }
 
-std::string to_json(const std::vector<Parameter>& parameters) {
+Json to_json(const std::vector<Parameter>& parameters) {
   Json out = Json::array();
   for (const Parameter& p : parameters)
     out.push_back(Json::array({p.key, p.value, p.mark, p.range, p.uncertainty, p.source}));
-  return text_of(out);
+  return out;
 }
 
 namespace {
@@ -250,25 +248,25 @@ std::vector<analysis::Span> shown(const std::vector<analysis::Span>& spans) {
 
 }  // namespace
 
-std::string to_json(const std::vector<analysis::Warning>& warnings) {
+Json to_json(const std::vector<analysis::Warning>& warnings) {
   Json out = Json::array();
   for (const analysis::Warning& w : warnings) {
     Json spans = Json::array();
     for (const analysis::Span& s : shown(w.spans)) spans.push_back(Json::array({s.from, s.to}));
     out.push_back({{"text", w.text}, {"spans", std::move(spans)}});
   }
-  return text_of(out);
+  return out;
 }
 
-std::string to_json(const std::vector<analysis::MachineFault>& faults, double end) {
+Json to_json(const std::vector<analysis::MachineFault>& faults, double end) {
   Json out = Json::array();
   for (const analysis::MachineFault& f : faults)
     out.push_back(
         {{"of", f.of}, {"what", f.what}, {"from", f.begin}, {"to", std::fmin(f.end, end)}});
-  return text_of(out);
+  return out;
 }
 
-std::string to_json(const std::vector<analysis::Verdict>& verdicts) {
+Json to_json(const std::vector<analysis::Verdict>& verdicts) {
   Json out = Json::array();
   for (const analysis::Verdict& v : verdicts)
     out.push_back({{"key", v.key},
@@ -279,10 +277,10 @@ std::string to_json(const std::vector<analysis::Verdict>& verdicts) {
                    {"class", to_text(v.statement_class)},
                    {"wording", to_text(v.wording)},
                    {"is", analysis::to_text(v.agreement)}});
-  return text_of(out);
+  return out;
 }
 
-std::string to_json(const std::vector<PageChange>& changes) {
+Json to_json(const std::vector<PageChange>& changes) {
   Json out = Json::array();
   for (const PageChange& c : changes) {
     Json one = {{"time", c.time}, {"key", c.key}};
@@ -291,18 +289,14 @@ std::string to_json(const std::vector<PageChange>& changes) {
     if (!c.leg.empty()) one["leg"] = c.leg;
     out.push_back(std::move(one));
   }
-  return text_of(out);
+  return out;
 }
 
-std::string to_json(const Blob::Layout& layout) {
-  return text_of({{"clocks", layout.clocks}, {"columns", layout.columns}});
+Json to_json(const Blob::Layout& layout) {
+  return {{"clocks", layout.clocks}, {"columns", layout.columns}};
 }
 
-std::string to_json(const std::string& text) { return text_of(text); }
-
-std::string to_json(double number) { return text_of(number); }
-
-std::string phases_of(const analysis::Record& record, const analysis::Machine& machine) {
+Json phases_of(const analysis::Record& record, const analysis::Machine& machine) {
   Json stretches = Json::array();
   const bool all = record.stretches().size() <= most_stretches;
   for (std::size_t i = 0; all && i < record.stretches().size(); ++i) {
@@ -313,33 +307,19 @@ std::string phases_of(const analysis::Record& record, const analysis::Machine& m
                          {"to", record.end_of(s.last - 1)},
                          {"stance", analysis::is_stance(machine, s.phase)}});
   }
-  return text_of({{"names", machine.phases}, {"stretches", std::move(stretches)}});
+  return {{"names", machine.phases}, {"stretches", std::move(stretches)}};
 }
 
-std::string to_json(const FitPage& fit, Columns& columns) {
+Json to_json(const FitPage& fit, Columns& columns) {
   Json out = {{"format", "sinew.fit/1"}, {"title", fit.title}, {"version", fit.version}};
   out["data"] = fit.data;
   out["atmosphere"] = fit.atmosphere;
   out["parts"] = Json::array();
   for (const FitPart& part : fit.parts)
-    out["parts"].push_back({{"report", Json::parse(part.report)},
-                            {"charts", Json::parse(charts_json(part.charts, columns))}});
-  out["parameters"] = Json::parse(to_json(fit.values));
-  return text_of(out);
-}
-
-std::string with_members(const std::string& object, const std::vector<ChangedMember>& members) {
-  Json out = Json::parse(object);
-  for (const auto& [name, json] : members) {
-    const std::size_t slash = name.find('/');
-    Json& in = slash == name.npos ? out : out[name.substr(0, slash)];
-    const std::string last = slash == name.npos ? name : name.substr(slash + 1);
-    if (json.empty())
-      in.erase(last);
-    else
-      in[last] = Json::parse(json);
-  }
-  return out.text();
+    out["parts"].push_back(
+        {{"report", Json::parse(part.report)}, {"charts", charts_json(part.charts, columns)}});
+  out["parameters"] = to_json(fit.values);
+  return out;
 }
 
 // --- units ---

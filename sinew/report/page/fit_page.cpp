@@ -9,7 +9,7 @@ Content content(const FitPage& fit) {
   const Channels none;
   Blob blob;
   Columns columns(none, blob);
-  return {fit.title, to_json(fit, columns), ""};
+  return {fit.title, to_json(fit, columns).text(), ""};
 }
 
 std::string page(const FitPage& fit) {

@@ -30,6 +30,6 @@ struct FitPage {
 // Returns the page. Throws std::runtime_error if the program was built without its pages.
 std::string page(const FitPage& fit);
 Content content(const FitPage& fit);
-std::string to_json(const FitPage& fit, Columns& columns);
+Json to_json(const FitPage& fit, Columns& columns);
 
 }  // namespace sinew::report

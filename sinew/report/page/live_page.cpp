@@ -129,24 +129,21 @@ LivePage::LivePage(const std::vector<signals::Topic>& topics, Of of)
   const report::Content whole = report::content(
       {.analysis = analysis, .resolved = of_.resolved, .name = of_.name, .units = of_.units});
   units_ = whole.units;
-  const std::string curves = panels_json(panels(parts.channels, machine_), columns);
-  const std::string scene = to_json(parts.scene, columns), stand = to_json(parts.stand, columns);
+  Json head = Json::parse(whole.json);
+  head["duration"] = of_.duration;
+  head["phases"]["stretches"] = Json::array();
+  head["panels"] = panels_json(panels(parts.channels, machine_), columns);
+  head["scene"] = to_json(parts.scene, columns);
+  if (machine_.stand) head["stand"] = to_json(parts.stand, columns);
+  if (!machine_.faults.empty()) head["faults"] = to_json(machine_.faults, of_.duration);
+  head.erase("charts");   // these need the whole run
+  head.erase("changes");  // each is sent when it takes effect
+  head["warnings"] = head["verdicts"] = Json::array();
+  head["summary"] = Json::object();
   Blob::Layout layout = blob.layout();
   std::ranges::fill(layout.clocks, 0);
-  std::vector<ChangedMember> members = {{"duration", to_json(of_.duration)},
-                                        {"phases/stretches", "[]"},
-                                        {"panels", curves},
-                                        {"scene", scene},
-                                        {"charts", ""},   // these need the whole run
-                                        {"changes", ""},  // each is sent when it takes effect
-                                        {"warnings", "[]"},
-                                        {"verdicts", "[]"},
-                                        {"summary", "{}"},
-                                        {"samples", to_json(layout)}};
-  if (machine_.stand) members.push_back({"stand", stand});
-  if (!machine_.faults.empty())
-    members.push_back({"faults", to_json(machine_.faults, of_.duration)});
-  head_ = with_members(whole.json, members);
+  head["samples"] = to_json(layout);
+  head_ = head.text();
   columns_ = columns.list();
 }
 
@@ -167,8 +164,10 @@ std::string LivePage::piece(const Table& table) const {
     if (!samples) samples = {&no_times, &no_values.emplace_back(), ""};
     blob.add(samples, request.as);
   }
-  return "{\"samples\":" + to_json(blob.layout()) + ",\"data\":\"" + blob.base64() +
-         "\",\"phases\":" + phases_of(parts.record, machine_) + "}";
+  return Json{{"samples", to_json(blob.layout())},
+              {"data", blob.base64()},
+              {"phases", phases_of(parts.record, machine_)}}
+      .text();
 }
 
 }  // namespace sinew::report

@@ -66,6 +66,13 @@ void collect(const Node& table, const std::string& path, std::vector<Parameter>&
 
 }  // namespace
 
+std::string value_text(const Node& table, std::string_view key) {
+  const Node* node = table.find(key);
+  if (!node) return "";
+  const Node* value = node->find("value");
+  return config::written(value ? *value : *node);
+}
+
 std::vector<Parameter> parameters(const Node& resolved) {
   std::vector<Parameter> out;
   collect(resolved, "", out);

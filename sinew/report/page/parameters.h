@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sinew/config/node.h"
@@ -18,6 +19,9 @@ struct Parameter {
   std::string uncertainty;  // as written
   std::string source;
 };
+
+// Returns the value of a key as written, without its source; empty if the key is missing.
+std::string value_text(const config::Node& table, std::string_view key);
 
 // Returns the parameters of a resolved.toml, in its order, without reported figures and empty
 // values.

@@ -1,5 +1,5 @@
-// report/page/picture.h - a small picture of the machine of a run, for a list: an SVG drawing from
-// the side, in the initial pose.
+// report/page/picture.h - the machine of a run in its initial pose, for the picture in a list of
+// runs.
 #pragma once
 
 #include <string>
@@ -8,8 +8,9 @@
 
 namespace sinew::report {
 
-// Draws a robot with its links, muscles and feet, or the muscle of a test stand; a curve if the
-// file does not describe a machine. The colors suit light and dark backgrounds.
+// Returns what web/src/run_list.js draws, as JSON: {"scene", "atmosphere", "samples", "data"}, the
+// scene with one sample (content.h), null if it has no links; {"stand": true} for a test stand; {}
+// if the file does not describe a machine.
 std::string picture(const config::Node& resolved);
 
 }  // namespace sinew::report
