@@ -45,39 +45,52 @@ export function axis_of(column, room = 0.04) {
 export const value_text = (column, value) =>
   (value !== value || value === undefined ? '–' : column.number ? number(value) : column.words[value]);
 
-// Clears and resizes a canvas and its second canvas `still`; returns the context of `still`.
-export function fresh_context(canvas, still, width, height) {
-  const ratio = window.devicePixelRatio || 1;
-  canvas.style.height = `${height}px`;
-  for (const c of [canvas, still]) {
-    c.width = Math.round(width * ratio);
-    c.height = Math.round(height * ratio);
+// Canvas on which everything is drawn once, on a second canvas; marks of rows are drawn over it.
+export class Sheet {
+  // Calls `on_pick(row)` on a click and `on_over(row)` on a move with the row at the pointer, -1 if none.
+  constructor(canvas, { row_at, on_pick, on_over, height }) {
+    Object.assign(this, { canvas, height, instead: null });  // `instead`: context while a picture is saved
+    this.still = document.createElement('canvas');
+    canvas.addEventListener('pointermove', (e) => on_over(row_at(e)));
+    canvas.addEventListener('pointerleave', () => on_over(-1));
+    canvas.addEventListener('click', (e) => on_pick(row_at(e)));
   }
-  const ctx = still.getContext('2d');
-  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-  return ctx;
-}
 
-// Copies `still` to the canvas. Returns the context of the canvas, for marks over it.
-export function still_drawn(canvas, still) {
-  const ctx = canvas.getContext('2d'), ratio = window.devicePixelRatio || 1;
-  ctx.setTransform(1, 0, 0, 1, 0, 0);
-  ctx.clearRect(0, 0, canvas.width, canvas.height);
-  ctx.drawImage(still, 0, 0);
-  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-  return ctx;
+  // Clears the drawing. Returns its context.
+  fresh() {
+    if (this.instead) return this.instead;
+    const ratio = window.devicePixelRatio || 1, width = this.canvas.clientWidth;
+    this.canvas.style.height = `${this.height}px`;
+    for (const c of [this.canvas, this.still]) {
+      c.width = Math.round(width * ratio);
+      c.height = Math.round(this.height * ratio);
+    }
+    const ctx = this.still.getContext('2d');
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    return ctx;
+  }
+
+  // Shows the drawing. Returns the context for marks over it.
+  over() {
+    const { canvas } = this, ctx = canvas.getContext('2d'), ratio = window.devicePixelRatio || 1;
+    ctx.setTransform(1, 0, 0, 1, 0, 0);
+    ctx.clearRect(0, 0, canvas.width, canvas.height);
+    ctx.drawImage(this.still, 0, 0);
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    return ctx;
+  }
 }
 
 // Returns the menu of a view. To save a picture, the view is drawn into an SvgContext in light colors, and
-// then again on the page. `view` has `title`, `canvas`, draw(colors), and a `chart` with `height` and
-// `instead`, the context that replaces its canvas.
+// then again on the page. `view` has `title`, `canvas`, draw(colors), a `chart`, which is a
+// Sheet, and `below`, the height of what only a picture has below it.
 export function picture_menu(page, view) {
   const drawn = () => {
     const ctx = new SvgContext(), { chart } = view;
     chart.instead = ctx;
     try {
       view.draw(view_colors(paper_theme()));
-      return ctx.svg(view.title, view.canvas.clientWidth, chart.height);
+      return ctx.svg(view.title, view.canvas.clientWidth, chart.height + (view.below ?? 0));
     } finally {
       chart.instead = null;
       view.draw(view_colors(page_theme()));
@@ -89,24 +102,18 @@ export function picture_menu(page, view) {
     menu_button('⋯', 'Chart menu', () => save_entries(of, () => view.title, drawn)));
 }
 
-export class Chart {
-  // Calls `on_pick(row)` on a click and `on_over(row)` on a move with the row at the pointer, -1 if none.
+export class Chart extends Sheet {
   constructor(canvas, { on_pick, on_over, height = 320 }) {
-    Object.assign(this, { canvas, on_pick, on_over, height });
-    this.still = document.createElement('canvas');
-    this.instead = null;  // context that replaces the canvas while a picture is saved
+    super(canvas, { row_at: (e) => this.row_at(e), on_pick, on_over, height });
     this.rows = [];
     canvas.tabIndex = 0;
-    canvas.addEventListener('pointermove', (e) => on_over(this.row_at(e)));
-    canvas.addEventListener('pointerleave', () => on_over(-1));
-    canvas.addEventListener('click', (e) => on_pick(this.row_at(e)));
   }
 
   // Begins a drawing with these axes. Returns the context; null if the canvas has no width.
   begin(x_axis, y_axis, colors) {
     const width = this.canvas.clientWidth;
     if (!width) return null;
-    const ctx = this.instead ?? fresh_context(this.canvas, this.still, width, this.height);
+    const ctx = this.fresh();
     const box = { left: margin.left, right: width - margin.right, top: margin.top, bottom: this.height - margin.bottom };
     this.frame = frame_of(box, x_axis, [{ ...y_axis, name: `↑ ${y_axis.name}` }]);
     this.colors = colors;
@@ -154,7 +161,7 @@ export class Chart {
   // Shows the drawing with the row at the pointer and the chosen row over it.
   show(over, chosen, words) {
     if (!this.frame) return;
-    const ctx = still_drawn(this.canvas, this.still);
+    const ctx = this.over();
     for (const [row, size] of [[chosen, 8], [over, 6]]) {
       const i = this.index?.get(row);
       if (i === undefined) continue;

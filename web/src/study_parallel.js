@@ -1,7 +1,7 @@
 // Parallel coordinates: an axis for each column, a line for each row. A range drawn on an axis filters
 // every view.
 import { button, element } from './page.js';
-import { axis_of, coloring, fresh_context, outlined, picture_menu, still_drawn, value_text } from './study_chart.js';
+import { axis_of, coloring, outlined, picture_menu, Sheet, value_text } from './study_chart.js';
 import { number } from './units.js';
 
 const pad = { top: 12, bottom: 12 };  // [px]
@@ -15,10 +15,10 @@ const thin = (rows, most) => rows.filter((_, i) => i % Math.ceil(rows.length / m
 
 export class Parallel {
   constructor(page) {
-    Object.assign(this, { page, title: 'All columns', chart: { instead: null, height: height + 10 } });
+    Object.assign(this, { page, title: 'All columns', below: 10 });
     this.choose_first();
     this.canvas = element('canvas', { id: 'parallel-canvas', role: 'img', 'aria-label': 'A line for each row across the axes of its columns' });
-    this.still = document.createElement('canvas');
+    this.chart = new Sheet(this.canvas, { row_at: (e) => this.row_at(e), on_pick: (row) => page.choose(row), on_over: (row) => page.over(row), height });
     this.handles = element('div', { class: 'handles' });
     this.names = element('div', { class: 'axis-names' });
     this.inner = element('div', { class: 'parallel-inner' }, this.names, this.canvas, this.handles);
@@ -28,9 +28,6 @@ export class Parallel {
       element('div', { class: 'parallel-scroll' }, this.inner),
       element('p', { class: 'hint' }, 'Drag along an axis to select a range, click the axis to remove it. With the keyboard, ↑ ↓ move the lower end, Shift ↑ ↓ the upper end, Delete removes it. ',
         'Click a line to choose its row.'));
-    this.canvas.addEventListener('pointermove', (e) => page.over(this.row_at(e)));
-    this.canvas.addEventListener('pointerleave', () => page.over(-1));
-    this.canvas.addEventListener('click', (e) => page.choose(this.row_at(e)));
   }
 
   // Chooses the axes, unless the reader has chosen them.
@@ -116,7 +113,7 @@ export class Parallel {
   draw(colors) {
     const width = this.canvas.clientWidth;
     if (!width || !this.columns.length) return;
-    const ctx = this.chart.instead ?? fresh_context(this.canvas, this.still, width, height);
+    const ctx = this.chart.fresh();
     this.at_x = this.columns.map((_, i) => (width * (i + 0.5)) / this.columns.length);
     this.at_y = this.columns.map((c) => {
       const { span: [low, high] } = axis_of(c), scale = (height - pad.top - pad.bottom) / (high - low);
@@ -215,7 +212,7 @@ export class Parallel {
 
   show(over, chosen) {
     if (!this.at_x) return;
-    const ctx = still_drawn(this.canvas, this.still);
+    const ctx = this.chart.over();
     for (const row of [chosen, over]) {
       if (row < 0) continue;
       ctx.beginPath();
