@@ -127,6 +127,7 @@ bool next_to_send(std::uint8_t& byte) { return to_line.take(byte); }
 void tick() {
   board::Program& p = program();
   const std::uint32_t passed = hardware::ticks_passed();
+  if (passed == 0) return;
   if (passed > 1) p.miss(passed - 1);
   const Tick now = p.now();
   drive(p.begin_tick(), now);

@@ -58,7 +58,8 @@ void start_watchdog();  // resets the board if it is not fed for about 20 ms; ca
 void start_ticks();     // makes the timer call tick() every 100 us
 
 // tick() calls these, each at most once per tick. All but reading() take less than 1 us.
-std::uint32_t ticks_passed();  // since the last call: 1, or more if ticks were missed
+std::uint32_t
+ticks_passed();  // since the last call: 1; more if ticks were missed; 0 (tick_count.h)
 void start_conversion(signals::Channel channel);  // samples now, does not wait
 signals::Reading reading(signals::Tick run);  // result of the last conversion; late: not finished
 // Sets the valves. Called when something has changed; all pins of a port change at once. A run's

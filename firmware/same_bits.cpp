@@ -8,6 +8,7 @@
 
 #include "firmware/same_bits.h"
 #if !__STDC_HOSTED__
+#include "firmware/board.h"
 #include "firmware/semihosting.h"
 #endif
 #include "sinew/control/joint/joint_controller.h"
@@ -17,7 +18,6 @@
 
 namespace sinew::firmware {
 
-void program();
 #if __STDC_HOSTED__
 void print(const char* text);  // below
 #endif
@@ -208,5 +208,8 @@ void sinew::firmware::print(const char* text) { std::fputs(text, stdout); }
 
 int main() { sinew::firmware::same_bits(); }
 #else
-void sinew::firmware::program() { same_bits(); }
+void sinew::firmware::run() {
+  same_bits();
+  quit(0);
+}
 #endif

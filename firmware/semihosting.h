@@ -2,6 +2,7 @@
 // at BKPT 0xAB, and the emulator executes the operation in r0 with the parameter in r1.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,6 +23,12 @@ inline void print(const char* text) { semihost(0x04, text); }  // SYS_WRITE0
   const std::uint32_t block[] = {application_exit, code};
   semihost(0x20, block);  // SYS_EXIT_EXTENDED
   for (;;) {}
+}
+
+// Prints the reason and ends the program with an error.
+[[noreturn]] inline void fail(const char* why) {
+  print(why);
+  quit(1);
 }
 
 // A file of the host computer. A named pipe stops the whole machine, including its clock, while it
@@ -54,10 +61,6 @@ class File {
   }
 
  private:
-  [[noreturn]] static void fail(const char* why) {
-    print(why);
-    quit(1);
-  }
   std::uint32_t ask(std::uint32_t operation, const void* data, std::size_t size) const {
     const std::uint32_t block[] = {static_cast<std::uint32_t>(handle_),
                                    reinterpret_cast<std::uint32_t>(data), size};
@@ -67,11 +70,20 @@ class File {
   std::int32_t handle_ = -1;
 };
 
-// Returns the words of -semihosting-config arg=..., separated by blanks and cut off at the end of
-// `out`.
-inline void command_line(std::span<char> out) {
-  const std::uint32_t block[] = {reinterpret_cast<std::uint32_t>(out.data()), out.size()};
-  if (semihost(0x15, block) != 0) out[0] = 0;  // SYS_GET_CMDLINE
+// Fills `out` with the first words of -semihosting-config arg=..., which are separated by blanks;
+// returns their number. Called once.
+inline std::size_t command_words(std::span<const char*> out) {
+  static std::array<char, 512> text;
+  const std::uint32_t block[] = {reinterpret_cast<std::uint32_t>(text.data()), text.size()};
+  if (semihost(0x15, block) != 0) text[0] = 0;  // SYS_GET_CMDLINE
+  std::size_t n = 0;
+  out[n++] = text.data();
+  for (std::size_t i = 0; text[i] != 0 && n < out.size(); ++i)
+    if (text[i] == ' ') {
+      text[i] = 0;
+      out[n++] = &text[i + 1];
+    }
+  return n;
 }
 
 }  // namespace sinew::firmware

@@ -21,14 +21,13 @@ class TickCount {
     last_ = now;
   }
 
-  // Returns the ticks since the last call, at least 1, since it is called in a tick. If the
-  // previous call already counted this tick, because it began before that call read the clock, it
-  // is not subtracted.
+  // Returns the ticks since the last call. 0: the previous call already counted this tick, since it
+  // began before that call read the clock.
   std::uint32_t passed(std::uint32_t now) {
     const std::uint32_t early = clocks_a_tick_ / 64;  // largest difference of the two timers
     const std::uint32_t ticks = (now - last_ + early) / clocks_a_tick_;
     last_ += ticks * clocks_a_tick_;
-    return ticks > 0 ? ticks : 1;
+    return ticks;
   }
 
   // Returns the time at which the last counted tick began [clocks].

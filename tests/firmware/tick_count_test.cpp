@@ -61,8 +61,16 @@ TEST(TickCount, TimersThatStartOneAfterTheOtherAreTheSameClock) {
   }
 }
 
+TEST(TickCount, OneThatIsServedJustBeforeTheNextIsNotCountedTwice) {
+  Clock clock;
+  EXPECT_EQ(clock.at(1.99), 2u);
+  EXPECT_EQ(clock.at(2.05), 0u);
+  for (int i = 3; i < 10; ++i) EXPECT_EQ(clock.at(i), 1u);
+  EXPECT_EQ(clock.began(), 9.0);
+}
+
 // Work of any length in each tick; the next one is served when that is done. One that is served
-// within a 64th of the tick after it counts that one as well: the test draws none so late.
+// within a 64th of the tick after it counts that one as well, whose own interrupt then counts none.
 TEST(TickCount, WhateverIsLateNoTickIsLostOrTwice) {
   std::mt19937 random(1);
   std::exponential_distribution<double> work(2.0);  // [ticks]
@@ -72,9 +80,11 @@ TEST(TickCount, WhateverIsLateNoTickIsLostOrTwice) {
     std::uint64_t told = 0;
     for (int i = 0; i < 1'000; ++i) {
       told += clock.at(now);
-      ASSERT_EQ(told, static_cast<std::uint64_t>(now)) << "run " << run << ", tick " << i;
+      const double served = now + 1.0 / 64;
+      if (served - std::floor(served) > 1e-3) {  // else rounding to clocks decides
+        ASSERT_EQ(told, static_cast<std::uint64_t>(served)) << "run " << run << ", tick " << i;
+      }
       now = std::max(now + work(random), std::floor(now) + 1);
-      if (now - std::floor(now) > 0.97) now = std::floor(now) + 1;
     }
   }
 }

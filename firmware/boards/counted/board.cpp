@@ -185,28 +185,3 @@ void idle() {
 
 }  // namespace hardware
 }  // namespace sinew::firmware
-
-extern "C" {
-
-[[noreturn]] void reset() {
-  using namespace sinew::firmware;
-  cortex_m::start_fpu();
-  cortex_m::prepare_memory();
-  cortex_m::paint_stack();
-  run();
-}
-
-void fault() {
-  sinew::firmware::print("fault\n");
-  sinew::firmware::quit(1);
-}
-
-using Handler = void (*)();
-[[gnu::section(".vectors"), gnu::used]] const struct {
-  std::uint32_t* stack;
-  Handler handler[15];
-} vectors = {stack_top,
-             {reset, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault,
-              fault, fault, fault}};
-
-}  // extern "C"

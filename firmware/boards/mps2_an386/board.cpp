@@ -10,18 +10,16 @@
 #include "firmware/board.h"
 
 #include <array>
-#include <new>
 
 #include "firmware/cortex_m.h"
+#include "firmware/host_pipes.h"
 #include "firmware/level.h"
-#include "firmware/semihosting.h"
+#include "firmware/start.h"
 #include "firmware/tick_count.h"
-#include "sinew/control/board/lock_step.h"
 
 namespace sinew::firmware {
 namespace {
 
-namespace record = board::record;
 using cortex_m::reg;
 using signals::Status;
 using signals::Tick;
@@ -63,12 +61,8 @@ struct Retained {
 
 // --- the host's converter and valves ------------------------------------------------------------
 
-struct Host {
-  File to, from;
-};
-alignas(Host) std::array<std::uint8_t, sizeof(Host)> host_room;
+Room<Host> host_room;
 Host* host = nullptr;
-std::array<char, 512> words;
 
 // The emulator's UART sends a byte in no time, so bytes are limited to those of a line of 921,600
 // baud: nine per tick.
@@ -86,24 +80,10 @@ bool same(const char* a, const char* b) {
 
 // Reads the words after the program's name.
 void read_command_line() {
-  command_line(words);
   std::array<const char*, 3> word{};
-  std::size_t n = 1;
-  for (std::size_t i = 0; words[i] != 0 && n < word.size(); ++i)
-    if (words[i] == ' ') {
-      words[i] = 0;
-      word[n++] = &words[i + 1];
-    }
+  const std::size_t n = command_words(word);
   stops_feeding = n == 2 && same(word[1], "starve");
-  if (n == 3)
-    host = new (host_room.data())
-        Host{File(word[1], File::For::writing), File(word[2], File::For::reading)};
-}
-
-template <class T>
-std::uint8_t* put(std::uint8_t* at, T number) {
-  for (std::size_t i = 0; i < sizeof(T); ++i) *at++ = static_cast<std::uint8_t>(number >> 8 * i);
-  return at;
+  if (n == 3) host = &host_room.make(word[1], word[2]);
 }
 
 // --- the stack, once a second -------------------------------------------------------------------
@@ -195,30 +175,19 @@ void start_conversion(signals::Channel channel) { converted = channel; }
 // result is due.
 signals::Reading reading(Tick run) {
   if (host == nullptr) return {2'048, Status::ok};
-  std::array<std::uint8_t, 10> ask;
-  std::uint8_t* end = put(ask.data(), record::reading);
-  end = put(end, static_cast<std::uint64_t>(run));
-  put(end, converted.index);
   for (;;) {
-    host->to.write(ask);
-    std::array<std::uint8_t, 3> b;
-    host->from.read(b);
-    const auto number = static_cast<std::uint16_t>(b[0] | b[1] << 8);
-    if (b[2] < board::failure::stalls) return {number, static_cast<Status>(b[2])};
-    if (b[2] == board::failure::resets) cortex_m::reset_all();
-    stand_still(number);
+    const Host::Converted from = host->convert(static_cast<std::uint64_t>(run), converted.index);
+    if (from.status < board::failure::stalls)
+      return {from.number, static_cast<Status>(from.status)};
+    if (from.status == board::failure::resets) cortex_m::reset_all();
+    stand_still(from.number);
   }
 }
 
 void drive(const Drive& d) {
   if (host == nullptr) return;
-  std::array<std::uint8_t, 14> out;
-  std::uint8_t* end = put(out.data(), record::valves);
-  end = put(end, static_cast<std::uint64_t>(d.tick));
-  end = put(end, d.open);
-  put(end, static_cast<std::uint8_t>((d.current ? board::has_current : 0) |
-                                     (d.supply ? board::has_supply : 0)));
-  host->to.write(out);
+  host->put_valves(static_cast<std::uint64_t>(d.tick), d.open, d.current, d.supply);
+  host->send();
 }
 
 void block_ticks() { cortex_m::block_ticks(); }
@@ -238,18 +207,8 @@ void idle() { look_at_stack(); }
 
 extern "C" {
 
-[[noreturn]] void reset() {
-  using namespace sinew::firmware;
-  cortex_m::start_fpu();
-  cortex_m::prepare_memory();
-  cortex_m::paint_stack();
-  run();
-}
-
-void fault() {
-  sinew::firmware::print("fault\n");
-  sinew::firmware::quit(1);
-}
+[[noreturn]] void reset() { sinew::firmware::start_application(); }
+void fault() { sinew::firmware::fail("fault\n"); }
 
 // Handles the watchdog's first time-out; the second one resets the board.
 void watchdog_interrupt() {
@@ -280,13 +239,13 @@ void time_over() {
   cortex_m::request(line_sent);
 }
 
-using Handler = void (*)();
-[[gnu::section(".vectors"), gnu::used]] const struct {
-  std::uint32_t* stack;
-  Handler handler[15], interrupt[9];
-} vectors = {stack_top,
-             {reset, watchdog_interrupt, fault, fault, fault, fault, fault, fault, fault, fault,
-              fault, fault, fault, fault, fault},
-             {byte_came, byte_sent, fault, fault, fault, fault, fault, fault, time_over}};
-
 }  // extern "C"
+
+namespace sinew::firmware {
+[[gnu::section(".vectors"), gnu::used]] constinit const auto table = [] {
+  auto out = vectors<9>(
+      reset, fault, {{line_came, byte_came}, {line_sent, byte_sent}, {time_is_over, time_over}});
+  out.exception[1] = watchdog_interrupt;
+  return out;
+}();
+}  // namespace sinew::firmware

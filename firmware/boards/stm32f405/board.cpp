@@ -11,12 +11,9 @@
 //   line              PA9 out, PA10 in
 #include "firmware/board.h"
 
-#include <array>
-
 #include "firmware/cortex_m.h"
-#include "firmware/edges.h"
-#include "firmware/level.h"
-#include "firmware/tick_count.h"
+#include "firmware/start.h"
+#include "firmware/timed_pins.h"
 
 namespace sinew::firmware {
 namespace {
@@ -101,15 +98,9 @@ void put(const Pins& p) {
   reg(port_c + set_reset) = p.c;
 }
 
-constinit WaitingWord<Pins> waiting;
-constinit volatile std::uint32_t late_edges = 0;  // words that missed their instant, for a debugger
-
-void put_late() {
-  Pins p;
-  if (!waiting.take(p)) return;
-  put(p);
-  late_edges = late_edges + 1;
-}
+constinit TimedPins<Pins, put,
+                    CompareTimer{running + timer_count, running + timer_compare, clocks_a_us}>
+    timed;
 
 // Configures the pins. All coils are off before the pins become outputs.
 void start_pins() {
@@ -155,10 +146,6 @@ void start_converter() {
 // --- board.h ------------------------------------------------------------------------------------
 
 namespace hardware {
-
-namespace {
-constinit TickCount count;
-}
 
 void start() {
   constexpr std::uint32_t by_watchdog = 1u << 29, forget = 1u << 24;
@@ -210,7 +197,7 @@ void start_watchdog() {
 void feed_watchdog() { reg(watchdog) = 0xAAAA; }
 
 void start_ticks() {
-  count.start(clocks_a_tick, reg(running + timer_count));
+  timed.start();
   reg(ticking + timer_prescaler) = 0;
   reg(ticking + timer_reload) = clocks_a_tick - 1;
   reg(ticking + timer_interrupts) = 1;
@@ -219,7 +206,7 @@ void start_ticks() {
   cortex_m::enable(interrupt_of_ticks, cortex_m::of_tick);
 }
 
-std::uint32_t ticks_passed() { return count.passed(reg(running + timer_count)); }
+std::uint32_t ticks_passed() { return timed.ticks_passed(); }
 
 void start_conversion(signals::Channel channel) {
   reg(converter_input) = channel.index < 8 ? channel.index : channel.index + 2u;
@@ -232,19 +219,7 @@ signals::Reading reading(Tick) {
   return {static_cast<std::uint16_t>(reg(converter_data)), Status::ok};
 }
 
-void drive(const Drive& d) {
-  const Pins p =
-      d.current ? pins(d.coils, d.supply) : pins(control::rest_word(low_gives_current), d.supply);
-  if (!waits(d)) {
-    waiting.clear();
-    put(p);
-    return;
-  }
-  const std::uint32_t instant = count.began() + edge_delay * clocks_a_us;
-  waiting.set(p);
-  reg(running + timer_compare) = instant;
-  if (is_late(reg(running + timer_count), instant, clocks_a_us)) put_late();
-}
+void drive(const Drive& d) { timed.drive(d, pins(coils_of(d), d.supply)); }
 
 void block_ticks() { cortex_m::block_ticks(); }
 void allow_ticks() { cortex_m::allow_ticks(); }
@@ -262,13 +237,7 @@ void idle() { cortex_m::wait_for_interrupt(); }
 
 extern "C" {
 
-[[noreturn]] void reset() {
-  using namespace sinew::firmware;
-  cortex_m::start_fpu();
-  cortex_m::prepare_memory();
-  cortex_m::paint_stack();
-  run();
-}
+[[noreturn]] void reset() { sinew::firmware::start_application(); }
 
 // Switches all coils off and waits for the watchdog's reset.
 void fault() {
@@ -294,44 +263,26 @@ void line_works() {
   }
 }
 
-// Outputs a word that is still waiting, so that none waits longer than a tick even if the compare
-// failed.
 void time_over() {
   using namespace sinew::firmware;
   reg(ticking + timer_state) = 0;
-  put_late();
+  timed.put_late();
   tick();
 }
 
-// Writes the pins first: any code before it would delay the edge.
 void edge_due() {
   using namespace sinew::firmware;
-  Pins p;
-  if (waiting.take(p)) put(p);
+  timed.put_due();
   reg(running + timer_state) = ~compared;
   cortex_m::wait_for_writes();
 }
 
 }  // extern "C"
 
-namespace {
-
-using Handler = void (*)();
-constexpr std::array<Handler, 51> interrupts() {
-  std::array<Handler, 51> out{};
-  for (Handler& h : out) h = fault;
-  out[sinew::firmware::interrupt_of_ticks] = time_over;
-  out[sinew::firmware::interrupt_of_line] = line_works;
-  out[sinew::firmware::interrupt_of_edges] = edge_due;
-  return out;
+namespace sinew::firmware {
+[[gnu::section(".vectors"), gnu::used]] constinit const auto table =
+    vectors<51>(reset, fault,
+                {{interrupt_of_ticks, time_over},
+                 {interrupt_of_line, line_works},
+                 {interrupt_of_edges, edge_due}});
 }
-[[gnu::section(".vectors"), gnu::used]] const struct {
-  std::uint32_t* stack;
-  Handler handler[15];
-  std::array<Handler, 51> interrupt;
-} vectors = {stack_top,
-             {reset, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault,
-              fault, fault, fault},
-             interrupts()};
-
-}  // namespace

@@ -18,9 +18,7 @@
 #include "firmware/board.h"
 
 #include "firmware/cortex_m.h"
-#include "firmware/edges.h"
-#include "firmware/level.h"
-#include "firmware/tick_count.h"
+#include "firmware/timed_pins.h"
 
 namespace sinew::firmware {
 namespace {
@@ -103,15 +101,7 @@ void put(const Pins& p) {
   reg(port_9 + port_data) = p.of_9;
 }
 
-constinit WaitingWord<Pins> waiting;
-constinit volatile std::uint32_t late_edges = 0;  // words that missed their instant, for a debugger
-
-void put_late() {
-  Pins p;
-  if (!waiting.take(p)) return;
-  put(p);
-  late_edges = late_edges + 1;
-}
+constinit TimedPins<Pins, put, CompareTimer{running_count, running_compare, clocks_a_us}> timed;
 
 void set_pad(std::uintptr_t mux, std::uint32_t for_what, std::uint32_t resistors) {
   reg(mux) = for_what;
@@ -178,7 +168,6 @@ void start_converter() {
 namespace hardware {
 
 namespace {
-constinit TickCount count;
 std::uint32_t ticks_since_feeding = 0;  // calls since the watchdog was fed
 }  // namespace
 
@@ -255,7 +244,7 @@ void feed_watchdog() {
 }
 
 void start_ticks() {
-  count.start(clocks_a_tick, reg(running_count));
+  timed.start();
   reg(ticking_off) = 0;
   reg(ticking_reload) = clocks_a_tick - 1;
   reg(ticking_state) = 1;
@@ -264,7 +253,7 @@ void start_ticks() {
   cortex_m::enable(interrupt_of_ticks, cortex_m::of_tick);
 }
 
-std::uint32_t ticks_passed() { return count.passed(reg(running_count)); }
+std::uint32_t ticks_passed() { return timed.ticks_passed(); }
 
 void start_conversion(signals::Channel channel) {
   reg(converter_start) = (input_of_1[channel.index] + 5u) % 16;
@@ -275,19 +264,7 @@ signals::Reading reading(Tick) {
   return {static_cast<std::uint16_t>(reg(converter_data)), Status::ok};
 }
 
-void drive(const Drive& d) {
-  const Pins p =
-      d.current ? pins(d.coils, d.supply) : pins(control::rest_word(low_gives_current), d.supply);
-  if (!waits(d)) {
-    waiting.clear();
-    put(p);
-    return;
-  }
-  const std::uint32_t instant = count.began() + edge_delay * clocks_a_us;
-  waiting.set(p);
-  reg(running_compare) = instant;
-  if (is_late(reg(running_count), instant, clocks_a_us)) put_late();
-}
+void drive(const Drive& d) { timed.drive(d, pins(coils_of(d), d.supply)); }
 
 void block_ticks() { cortex_m::block_ticks(); }
 void allow_ticks() { cortex_m::allow_ticks(); }
@@ -328,21 +305,17 @@ void line_works() {
   }
 }
 
-// Outputs a word that is still waiting, so that none waits longer than a tick even if the compare
-// failed.
 void time_over() {
   using namespace sinew::firmware;
   reg(ticking_state) = 1;
-  put_late();
+  timed.put_late();
   tick();
 }
 
-// Writes the pins first: any code before it would delay the edge. The request must be cleared
-// before the return, or this processor enters the interrupt again.
+// The request must be cleared before the return, or this processor enters the interrupt again.
 void edge_due() {
   using namespace sinew::firmware;
-  Pins p;
-  if (waiting.take(p)) put(p);
+  timed.put_due();
   reg(running_state) = compared;
   cortex_m::wait_for_writes();
 }

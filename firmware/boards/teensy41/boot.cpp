@@ -12,6 +12,7 @@
 
 #include "firmware/board.h"
 #include "firmware/cortex_m.h"
+#include "firmware/start.h"
 
 extern "C" {
 // Symbols of the linker script: the addresses of the program in memory and in the chip, and the
@@ -125,24 +126,8 @@ void protect_memory() {
 
 // --- interrupts ---------------------------------------------------------------------------------
 
-using Handler = void (*)();
-constexpr std::array<Handler, 160> interrupts() {
-  std::array<Handler, 160> out{};
-  for (Handler& h : out) h = fault;
-  out[25] = line_works;  // LPUART6
-  out[100] = edge_due;   // GPT1
-  out[122] = time_over;  // PIT
-  return out;
-}
-
-[[gnu::section(".vectors"), gnu::used]] const struct {
-  std::uint32_t* stack;
-  Handler handler[15];
-  std::array<Handler, 160> interrupt;
-} vectors = {stack_top,
-             {reset, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault,
-              fault, fault, fault},
-             interrupts()};
+[[gnu::section(".vectors"), gnu::used]] constinit const auto table = vectors<160>(
+    reset, fault, {{25, line_works}, {100, edge_due}, {122, time_over}});  // LPUART6, GPT1, PIT
 
 }  // namespace
 }  // namespace sinew::firmware
@@ -169,7 +154,7 @@ extern "C" {
 // enabled.
 [[noreturn]] void reset() {
   using namespace sinew::firmware;
-  reg(0xE000ED08) = reinterpret_cast<std::uintptr_t>(&vectors);
+  reg(0xE000ED08) = reinterpret_cast<std::uintptr_t>(&table);
   reg(0xE000E010) = 0;
   for (std::uintptr_t word = 0; word < 5; ++word) {
     reg(0xE000E180 + 4 * word) = ~0u;  // disabled
@@ -177,9 +162,7 @@ extern "C" {
   }
   cortex_m::start_fpu();
   protect_memory();
-  cortex_m::prepare_memory();
-  cortex_m::paint_stack();
-  run();
+  start_application();
 }
 
 }  // extern "C"
