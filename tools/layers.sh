@@ -3,80 +3,22 @@
 #
 # Prints "file:line: message" for each finding; exit 1 if there is any.
 
-# A folder of sinew/ may include itself, the folders of its row, and everything that those may include. A name
-# includes its subfolders: `mechanism` includes mechanism/planar. Every folder with sources needs a row.
-# thesis/ may include all of them; cli/, python/ and fmu/ also thesis/; cli/ and python/ also fmu/.
-layers='
-    units
-    json
-    signals
-    host            signals
-    gas             units
-    actuator        units
-    air/stiff       gas
-    air             air/stiff gas actuator signals
+set -euo pipefail
+export LC_ALL=C.UTF-8
+root=$(cd "$(dirname "$0")/.." && pwd)
+
+# A folder of sinew/ may include itself, the folders of its row sinew_folder(NAME FOLDERS...) in CMakeLists.txt,
+# and everything that those may include. A name includes its subfolders: `mechanism` includes mechanism/planar.
+# Every folder with sources needs a row. thesis/ may include all of them; cli/, python/ and fmu/ also thesis/;
+# cli/ and python/ also fmu/.
+layers="
     muscle.h        world/driven
-    robot           gas actuator signals
-    robot/wiring    robot
-    control/joint   signals
-    control/supervise  control/joint signals
-    control/link    control/supervise control/joint signals
-    control/board   control/link control/supervise control/joint signals
-    control/gait    robot signals
-    control/setup   control robot config
-    config          json units
-    config/write    config
-    log             json signals
-    recording       signals log config host
-    mechanism/friction  units
-    mechanism/planar    mechanism/friction air robot signals
-    mechanism/driven    air signals
-    mechanism/slide     mechanism/driven air robot signals
-    mechanism/spatial   air robot signals
-    world/kernel    air signals
-    world/driven    world/kernel mechanism/driven air signals
-    world           world/kernel mechanism air signals
-    port/recorded   air robot signals log
-    port/hardware   control/link control/board host signals
-    port/comedi     control/supervise host signals
-    experiment      robot config control/gait
-    identify/contest  actuator config host
-    identify/data   identify/contest recording
-    identify/actuator  identify/data
-    identify/check  identify/actuator
-    identify/plan   identify/actuator
-    identify/motion identify/data world
-    identify/joint  identify/data
-    identify/pair   identify/data
-    identify/valve  identify/data gas signals
-    identify/sensor identify/data robot report/text
-    identify/machine  identify/data run/simulation robot
-    identify/page   identify/contest report
-    identify/task   identify experiment run/folder
-    analysis/verdict   signals config
-    analysis/align     analysis/verdict signals config
-    analysis/measures  signals robot gas actuator
-    analysis/record    analysis/verdict analysis/measures signals robot gas actuator config
-    analysis           analysis/record analysis/align
-    report/page     analysis log robot
-    report/figures  report/page
-    report/text
-    report/compare  report/page report/text
-    run/setup       experiment control world port report/text
-    run/controllers run/setup
-    run/simulation  run/controllers log host
-    run/muscle      run/setup world/driven
-    run/folder      run/simulation log analysis report recording
-    run/bring_up    run/folder report
-    film            run/folder report
-    tune            run/folder host
-    tune/results    tune
-    tune/mpi        tune/results
-    tune/optimizer  tune/results
-    tune/page       tune/results report/page
-    live            run/folder tune/page
-    files           run/folder tune/optimizer recording
-'
+$(awk '
+    /^ *sinew_folder\(/ { row = ""; within = 1 }
+    within { row = row " " $0 }
+    within && /\)/ { sub(/^ *sinew_folder\(/, "", row); sub(/\).*/, "", row); print row; within = 0 }
+  ' "$root"/CMakeLists.txt "$root"/cmake/*.cmake)
+"
 
 # Folders that only tests (*_test.cpp, *_test.h, test_*.h, testing.h) may include in addition. Tests of any
 # folder may include config, to read files of robots/ or experiments/.
@@ -90,7 +32,6 @@ libraries='
     toml[+][+]/     sinew/config
     zlib[.]h        sinew/log
     mcap/           sinew/log
-    mujoco/         sinew/mechanism/spatial
     cvode/          sinew/world
     CLI/            cli
     pybind11/       python/binding
@@ -109,9 +50,6 @@ libraries='
 
 # Largest number of lines of a file, except for tables (*.fields.h) and tests.
 longest_file=800
-
-set -euo pipefail
-export LC_ALL=C.UTF-8
 
 check_tree() {  # check_tree ROOT: findings on stdout, status 1 if there are any
   (
@@ -204,7 +142,7 @@ function check_include(file, line, target,   folder, mine, theirs, name) {
   report(file, line, mine " may not include " theirs)
 }
 function unknown(file, line, folder) {
-  report(file, line, "sinew/" folder " has no row in tools/layers.sh")
+  report(file, line, "sinew/" folder " has no row sinew_folder(...) in CMakeLists.txt")
 }
 
 function check_file(file,   text, line, code, name, folder) {
@@ -337,7 +275,7 @@ self_test() {
 }
 
 case ${1:-} in
-  '') check_tree "$(dirname "$0")/.." || exit 1; echo "layers: no violations" ;;
+  '') check_tree "$root" || exit 1; echo "layers: no violations" ;;
   --self-test) self_test ;;
   *) echo "usage: $0 [--self-test]" >&2; exit 2 ;;
 esac
