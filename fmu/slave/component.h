@@ -1,10 +1,11 @@
 // fmu/slave/component.h - object of an importer's handle: an instance with its name and the
-// importer's log. The C functions of both versions of the interface use guarded().
+// importer's log. The C functions of both versions of the interface call Calls.
 #pragma once
 
 #include <cstddef>
 #include <cstring>
 #include <exception>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -48,68 +49,6 @@ typename HeldInstance::Status logged(const HeldInstance& held, typename HeldInst
   return status;
 }
 
-// Calls `work(held)`. Returns error if it throws, and logs the reason, or if there is no instance.
-template <class HeldInstance, class Work>
-typename HeldInstance::Status guarded(void* component, const char* function,
-                                      const Work& work) noexcept {
-  using Status = typename HeldInstance::Status;
-  if (!component) return Status::error;
-  auto& held = *static_cast<HeldInstance*>(component);
-  try {
-    if constexpr (std::is_void_v<decltype(work(held))>) {
-      work(held);
-      return Status::ok;
-    } else {
-      return work(held);
-    }
-  } catch (const Discarded& e) {
-    return logged(held, Status::discard, function, e.what());
-  } catch (const std::exception& e) {
-    return logged(held, Status::error, function, e.what());
-  }
-}
-
-// Makes a step. Returns ok if it was completed or reached exactly the end of the model, discard if
-// the model had ended before, and `short_of` if the end of the model shortened it.
-template <class HeldInstance>
-typename HeldInstance::Status do_step(HeldInstance& held, const char* function, double from,
-                                      double length, typename HeldInstance::Status short_of) {
-  using Status = typename HeldInstance::Status;
-  auto& instance = held.instance;
-  const bool before = instance.ended();
-  const auto became = instance.step(from, length);
-  using Step = decltype(became);
-  if (became == Step::failed) return logged(held, Status::error, function, instance.trouble());
-  if (instance.ended() && !before) held.log(Status::ok, "the model has come to its end");
-  if (became == Step::done) return Status::ok;
-  if (before)
-    return logged(held, Status::discard, function, "the model had come to its end before");
-  return short_of == Status::ok
-             ? Status::ok
-             : logged(held, short_of, function, "the model has come to its end within the step");
-}
-
-// Reads values by their references. `convert` returns the element of the caller's array.
-template <class HeldInstance, class T, class Convert>
-void get_values(HeldInstance& held, Variable::Type type, const unsigned int* references,
-                std::size_t count, T* values, const Convert& convert) {
-  if (count > 0 && (!references || !values)) throw std::runtime_error("found no array of values");
-  for (std::size_t k = 0; k < count; ++k)
-    values[k] = convert(held.instance.get(references[k], type));
-}
-
-// Sets the values in order; an error leaves the earlier ones set.
-template <class HeldInstance, class T>
-void set_values(HeldInstance& held, Variable::Type type, const unsigned int* references,
-                std::size_t count, const T* values) {
-  if (count > 0 && (!references || !values)) throw std::runtime_error("found no array of values");
-  for (std::size_t k = 0; k < count; ++k) {
-    const double value =
-        type == Variable::Type::boolean ? (values[k] ? 1.0 : 0.0) : static_cast<double>(values[k]);
-    held.instance.set(references[k], type, value);
-  }
-}
-
 // --- saved states: the handle is a vector of bytes ---
 
 using Saved = std::vector<std::byte>;
@@ -129,25 +68,187 @@ inline void hand_over(void** state, Saved bytes) {
     *state = new Saved(std::move(bytes));
 }
 
-// Frees the state and sets the handle to null; does nothing if it is null.
-inline void free_state(void** state) {
-  if (!state) return;
-  delete static_cast<Saved*>(*state);
-  *state = nullptr;
+// --- functions of both versions ---
+
+// Bodies of the functions that both versions of the interface have, with the handle as the first
+// argument. `function` is the name of the C function that calls. Each returns error, and logs the
+// reason, for wrong arguments.
+template <class HeldInstance>
+struct Calls {
+  using Status = typename HeldInstance::Status;
+
+  // Calls `work(held)`. Returns error if it throws, and logs the reason, or if there is no
+  // instance.
+  template <class Work>
+  static Status call(void* c, const char* function, const Work& work) noexcept {
+    if (!c) return Status::error;
+    auto& held = *static_cast<HeldInstance*>(c);
+    try {
+      if constexpr (std::is_void_v<decltype(work(held))>) {
+        work(held);
+        return Status::ok;
+      } else {
+        return work(held);
+      }
+    } catch (const Discarded& e) {
+      return logged(held, Status::discard, function, e.what());
+    } catch (const std::exception& e) {
+      return logged(held, Status::error, function, e.what());
+    }
+  }
+  // Returns an error for a function that the model does not support.
+  static Status refuse(void* c, const char* why,
+                       const char* function = __builtin_FUNCTION()) noexcept {
+    return call(c, function, [&](HeldInstance&) { throw std::runtime_error(why); });
+  }
+  // Handles getters and setters of what no model has: ok if nothing is requested.
+  static Status none(void* c, std::size_t count, const char* why,
+                     const char* function = __builtin_FUNCTION()) noexcept {
+    return count == 0 ? Status::ok : refuse(c, why, function);
+  }
+
+  static Status set_logging(void* c, bool on, const char* function = __builtin_FUNCTION()) {
+    return call(c, function, [&](HeldInstance& s) { s.logging = on; });
+  }
+  static Status set_start(void* c, double start, bool stop_defined, double stop,
+                          const char* function = __builtin_FUNCTION()) {
+    return call(c, function, [&](HeldInstance& s) {
+      s.instance.set_start(start, stop_defined ? std::optional(stop) : std::nullopt);
+    });
+  }
+  static Status enter_initialization(void* c, const char* function = __builtin_FUNCTION()) {
+    return call(c, function, [](HeldInstance& s) { s.instance.enter_initialization(); });
+  }
+  static Status exit_initialization(void* c, const char* function = __builtin_FUNCTION()) {
+    return call(c, function, [](HeldInstance& s) {
+      s.instance.exit_initialization();
+      s.log(Status::ok, "the model has begun");
+    });
+  }
+  static Status terminate(void* c, const char* function = __builtin_FUNCTION()) {
+    return call(c, function, [](HeldInstance& s) {
+      s.instance.terminate();
+      s.log(Status::ok, "the run is terminated");
+    });
+  }
+  static Status reset(void* c, const char* function = __builtin_FUNCTION()) {
+    return call(c, function, [](HeldInstance& s) { s.instance.reset(); });
+  }
+
+  // Reads values by their references; `count` is the length of the importer's array.
+  template <class T>
+  static Status get(void* c, Variable::Type type, const unsigned int* references, std::size_t n,
+                    T* values, std::size_t count, const char* function = __builtin_FUNCTION()) {
+    return call(c, function, [&](HeldInstance& s) {
+      check_arrays(references, n, values, count);
+      for (std::size_t k = 0; k < n; ++k) {
+        const double value = s.instance.get(references[k], type);
+        values[k] = static_cast<T>(type == Variable::Type::boolean ? value != 0 : value);
+      }
+    });
+  }
+  // Sets the values in order; an error leaves the earlier ones set.
+  template <class T>
+  static Status set(void* c, Variable::Type type, const unsigned int* references, std::size_t n,
+                    const T* values, std::size_t count,
+                    const char* function = __builtin_FUNCTION()) {
+    return call(c, function, [&](HeldInstance& s) {
+      check_arrays(references, n, values, count);
+      for (std::size_t k = 0; k < n; ++k) {
+        const auto value = static_cast<double>(values[k]);
+        s.instance.set(references[k], type,
+                       type == Variable::Type::boolean ? (value != 0 ? 1.0 : 0.0) : value);
+      }
+    });
+  }
+
+  // Makes a step. Returns ok if it was completed or reached exactly the end of the model, discard
+  // if the model had ended before, and `short_of` if the end of the model shortened it.
+  static Status step(HeldInstance& held, double from, double length, Status short_of,
+                     const char* function) {
+    auto& instance = held.instance;
+    const bool before = instance.ended();
+    const auto became = instance.step(from, length);
+    using Step = decltype(became);
+    if (became == Step::failed) return logged(held, Status::error, function, instance.trouble());
+    if (instance.ended() && !before) held.log(Status::ok, "the model has come to its end");
+    if (became == Step::done) return Status::ok;
+    if (before)
+      return logged(held, Status::discard, function, "the model had come to its end before");
+    return short_of == Status::ok
+               ? Status::ok
+               : logged(held, short_of, function, "the model has come to its end within the step");
+  }
+
+  static Status get_state(void* c, void** state, const char* function = __builtin_FUNCTION()) {
+    return call(c, function, [&](HeldInstance& s) { hand_over(state, s.instance.save()); });
+  }
+  static Status set_state(void* c, const void* state, const char* function = __builtin_FUNCTION()) {
+    return call(c, function, [&](HeldInstance& s) { s.instance.restore(bytes_of(state)); });
+  }
+  static Status free(void* c, void** state, const char* function = __builtin_FUNCTION()) {
+    return call(c, function, [&](HeldInstance&) {
+      if (!state) return;
+      delete static_cast<Saved*>(*state);
+      *state = nullptr;
+    });
+  }
+  static Status state_size(void* c, const void* state, std::size_t* size,
+                           const char* function = __builtin_FUNCTION()) {
+    return call(c, function, [&](HeldInstance&) {
+      if (!size) throw std::runtime_error("found no place for the size");
+      *size = bytes_of(state).size();
+    });
+  }
+  static Status serialize(void* c, const void* state, void* out, std::size_t size,
+                          const char* function = __builtin_FUNCTION()) {
+    return call(c, function, [&](HeldInstance&) {
+      const Saved& bytes = bytes_of(state);
+      if (!out || size < bytes.size())
+        throw std::runtime_error("found room for " + std::to_string(size) + " bytes; expected " +
+                                 std::to_string(bytes.size()));
+      std::memcpy(out, bytes.data(), bytes.size());
+    });
+  }
+  static Status deserialize(void* c, const void* bytes, std::size_t size, void** state,
+                            const char* function = __builtin_FUNCTION()) {
+    return call(c, function, [&](HeldInstance&) {
+      if (!bytes) throw std::runtime_error("found no bytes of a state");
+      const auto* begin = static_cast<const std::byte*>(bytes);
+      hand_over(state, Saved(begin, begin + size));
+    });
+  }
+
+ private:
+  static void check_arrays(const unsigned int* references, std::size_t n, const void* values,
+                           std::size_t count) {
+    if (count != n) throw std::runtime_error("found another count of values than of references");
+    if (n > 0 && (!references || !values)) throw std::runtime_error("found no array of values");
+  }
+};
+
+// Makes an instance of the model that the folder of resources describes, and returns its handle.
+// Throws std::exception if the arguments are invalid; `token_name` is the version's name for the
+// token.
+template <class HeldInstance, class Models, class Importer>
+void* make_instance(const char* name, const char* token, const char* token_name,
+                    const char* resources, Importer importer, bool logging) {
+  if (!name || !*name) throw std::runtime_error("found no name of the instance");
+  if (!token) throw std::runtime_error(std::string("found no ") + token_name);
+  const auto description = Description::read(resource_folder(resources));
+  return new HeldInstance{Instance<Models>(description, token, SINEW_VERSION), std::move(importer),
+                          logging};
 }
 
-// Copy a state into the importer's buffer of `size` bytes, and from it.
-inline void copy_out(const void* state, void* out, std::size_t size) {
-  const Saved& bytes = bytes_of(state);
-  if (!out || size < bytes.size())
-    throw std::runtime_error("found room for " + std::to_string(size) + " bytes; expected " +
-                             std::to_string(bytes.size()));
-  std::memcpy(out, bytes.data(), bytes.size());
-}
-inline void copy_in(const void* bytes, std::size_t size, void** state) {
-  if (!bytes) throw std::runtime_error("found no bytes of a state");
-  const auto* begin = static_cast<const std::byte*>(bytes);
-  hand_over(state, Saved(begin, begin + size));
+// Logs the reason why no instance was created, and returns null.
+template <class Importer>
+void* refuse_instance(const char* function, const Importer& importer,
+                      const std::string& why) noexcept {
+  try {
+    importer.log(Importer::Status::error, error_category, std::string(function) + ": " + why);
+  } catch (...) {  // out of memory for the message
+  }
+  return nullptr;
 }
 
 }  // namespace sinew::fmu
