@@ -103,6 +103,13 @@ std::string either(const std::vector<std::string_view>& words) {
   return text;
 }
 
+std::string listed(const std::vector<std::string>& words, std::size_t most) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(words.size(), most); ++i)
+    text += (i > 0 ? ", " : "") + words[i];
+  return words.size() > most ? fmt::format("{} and {} more", text, words.size() - most) : text;
+}
+
 std::string in_quotes(std::string_view text) {
   if (text.size() <= longest_quote) return fmt::format("\"{}\"", text);
   // Does not split a UTF-8 character.

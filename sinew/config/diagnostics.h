@@ -70,6 +70,9 @@ std::vector<std::string_view> names_of(const Items& items) {
 // Returns "hip, knee or ankle".
 std::string either(const std::vector<std::string_view>& words);
 
+// Returns "a, b, c": at most `most` of the words, then how many more there are.
+std::string listed(const std::vector<std::string>& words, std::size_t most);
+
 // Returns the text in double quotes, shortened if it is too long for a message.
 std::string in_quotes(std::string_view text);
 

@@ -4,7 +4,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <sstream>
 
 #include "sinew/config/problems.h"
 #include "sinew/config/quantity.h"
@@ -77,14 +76,11 @@ void put_joint(Node& joint, const GainRow& row, const Node& entry, const Locatio
 std::vector<GainRow> parse_gains(std::string_view text, const std::string& name) {
   std::vector<GainRow> rows;
   Problems problems(name);
-  std::istringstream lines{std::string(text)};
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    if (trimmed_row(line).empty()) continue;
+  each_row(text, [&](std::string_view line, int number) {
     GainRow row{.line = number};
     parse_row(line, row, problems);
     rows.push_back(row);
-  }
+  });
   problems.finish();
   return rows;
 }

@@ -164,16 +164,11 @@ struct FullUnit {
 };
 
 FullUnit split_unit(std::string_view text) {
-  text = trimmed(text);
-  FullUnit full{text, {}, Reference::none};
-  const std::size_t space = text.rfind(' ');
-  const std::string_view last = space == text.npos ? text : text.substr(space + 1);
-  if (last == "abs") full.reference = Reference::absolute;
-  if (last == "gauge") full.reference = Reference::gauge;
-  if (last == "diff") full.reference = Reference::difference;
-  if (full.reference != Reference::none) {
-    full.text = trimmed(space == text.npos ? std::string_view{} : text.substr(0, space));
-  }
+  const auto [unit, word] = units::unit_and_reference(trimmed(text));
+  FullUnit full{trimmed(unit), {}, Reference::none};
+  if (word == "abs") full.reference = Reference::absolute;
+  if (word == "gauge") full.reference = Reference::gauge;
+  if (word == "diff") full.reference = Reference::difference;
   // Empty text is a plain number.
   full.reading = units::read_unit(full.text.empty() ? "1" : full.text);
   return full;
@@ -241,16 +236,9 @@ std::span<const UsualUnits> kinds_of_units() {
   return kinds;
 }
 
-// Returns " gauge" of "Pa gauge"; empty for most units.
-std::string_view reference_of(std::string_view unit) {
-  for (const std::string_view word : {" gauge", " abs", " diff"})
-    if (unit.ends_with(word)) return unit.substr(unit.size() - word.size());
-  return {};
-}
-
 const UsualUnits* kind_of_unit(std::string_view unit) {
-  unit.remove_suffix(reference_of(unit).size());
-  const auto at = std::ranges::find(kinds_of_units(), unit, &UsualUnits::si);
+  const std::string_view bare = units::unit_and_reference(unit)[0];
+  const auto at = std::ranges::find(kinds_of_units(), bare, &UsualUnits::si);
   return at == kinds_of_units().end() ? nullptr : &*at;
 }
 
@@ -405,7 +393,7 @@ std::vector<std::string> usual_units(std::string_view unit) {
   std::vector<std::string> out;
   if (const UsualUnits* kind = kind_of_unit(unit)) {
     for (const std::string_view one : kind->units)
-      out.push_back(std::string(one) + std::string(reference_of(unit)));
+      out.push_back(std::string(one) + std::string(unit.substr(kind->si.size())));
     return out;
   }
   std::string usual = with_usual_words(unit);

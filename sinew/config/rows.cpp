@@ -10,6 +10,15 @@ std::string_view trimmed_row(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
+void each_row(std::string_view text,
+              const std::function<void(std::string_view line, int number)>& row) {
+  for (int number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (!trimmed_row(text.substr(0, end)).empty()) row(text.substr(0, end), number);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
 std::vector<Cell> cells_of(std::string_view line) {
   std::vector<Cell> cells;
   for (std::size_t start = 0; start <= line.size();) {

@@ -7,6 +7,7 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
+#include "sinew/units/unit.h"
 
 namespace sinew::config {
 
@@ -78,10 +79,9 @@ std::vector<std::string_view> split(std::string_view text, char at) {
 }
 
 // Returns the text of a difference of pressures, which has no reference.
-std::string without_reference(std::string text) {
-  for (const std::string_view reference : {" gauge", " abs"})
-    if (text.ends_with(reference)) text.resize(text.size() - reference.size());
-  return text;
+std::string without_reference(std::string_view text) {
+  const auto [unit, word] = units::unit_and_reference(text);
+  return std::string(word == "diff" ? text : unit);
 }
 
 // Returns "1 in:2 in:0.1 in" in the unit that was written, or else in a usual one.

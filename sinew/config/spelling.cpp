@@ -238,13 +238,8 @@ std::vector<Spelling> bare_spellings(std::string_view text) {
 }  // namespace
 
 bool is_unit(std::string_view unit) {
-  std::string_view bare = units::trimmed(unit);
-  for (const std::string_view reference : {" gauge", " abs", " diff"})
-    if (bare.ends_with(reference)) {
-      bare.remove_suffix(reference.size());
-      return is_pressure(bare);
-    }
-  return reads(bare);
+  const auto [bare, reference] = units::unit_and_reference(units::trimmed(unit));
+  return reference.empty() ? reads(bare) : is_pressure(bare);
 }
 
 std::vector<Spelling> spellings(std::string_view unit) {

@@ -178,29 +178,27 @@ struct KeyVariants {
   }
   // Returns the values with which the path has this key: `kind = "angle" or "velocity"`.
   std::string condition_of(const std::string& path, const Key* key) const {
-    std::string out;
-    for (std::size_t k = 0; k < listings.size(); ++k) {
-      if (!same(at(k, path), key)) continue;
-      const std::string& condition = of.values[k].condition;
-      const std::size_t word = condition.find('"');
-      out += out.empty() || word == condition.npos ? condition : " or " + condition.substr(word);
-    }
-    return out;
+    return condition([&](std::size_t k) { return same(at(k, path), key); });
   }
   // Returns the values with which the path exists; empty: all of them.
   std::string presence_condition(const std::string& path) const {
+    const auto exists = [&](std::size_t k) { return at(k, path) != nullptr; };
+    for (std::size_t k = 0; k < listings.size(); ++k)
+      if (!exists(k)) return condition(exists);
+    return "";
+  }
+
+ private:
+  template <class Holds>
+  std::string condition(const Holds& holds) const {
     std::string out;
-    bool always = true;
     for (std::size_t k = 0; k < listings.size(); ++k) {
-      const std::string& condition = of.values[k].condition;
-      const std::size_t word = condition.find('"');
-      if (!at(k, path)) {
-        always = false;
-      } else {
-        out += out.empty() || word == condition.npos ? condition : " or " + condition.substr(word);
-      }
+      if (!holds(k)) continue;
+      const std::string& text = of.values[k].condition;
+      const std::size_t word = text.find('"');
+      out += out.empty() || word == text.npos ? text : " or " + text.substr(word);
     }
-    return always ? "" : out;
+    return out;
   }
 };
 

@@ -161,11 +161,7 @@ struct Matches {
 constexpr std::size_t most_names = 20;  // maximum number in a message
 
 std::string listed(const std::vector<std::string>& names) {
-  std::string out;
-  for (std::size_t i = 0; i < std::min(names.size(), most_names); ++i)
-    out += (i > 0 ? ", " : "") + names[i];
-  return names.size() > most_names ? fmt::format("{} and {} more", out, names.size() - most_names)
-                                   : out;
+  return config::listed(names, most_names);
 }
 
 std::string near(std::string_view word, const std::vector<std::string>& names) {
@@ -711,7 +707,7 @@ class Assembler {
             fmt::format("{}: {} not a channel of this machine, left out: {}", file.file,
                         file.unused.size() == 1 ? "1 column is"
                                                 : fmt::format("{} columns are", file.unused.size()),
-                        some(file.unused)));
+                        config::listed(file.unused, 10)));
       if (file.left_out > 0)
         out_.notes.push_back(
             fmt::format("{}: {} of {} values left out: not finite, or before time 0", file.file,
@@ -722,14 +718,6 @@ class Assembler {
           "valves: a table has their edges to one of its rows; what they delivered, how often "
           "they "
           "switched and their energy follow these and are no measurements");
-  }
-
-  static std::string some(const std::vector<std::string>& names) {
-    constexpr std::size_t most = 10;
-    std::string out;
-    for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
-      out += (i > 0 ? ", " : "") + names[i];
-    return names.size() > most ? fmt::format("{} and {} more", out, names.size() - most) : out;
   }
 
   const std::vector<Recorded>& files_;

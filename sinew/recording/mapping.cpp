@@ -10,7 +10,9 @@
 #include "sinew/config/problems.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/reader.h"
+#include "sinew/config/write/writer.h"
 #include "sinew/recording/mapping.fields.h"
+#include "sinew/units/each_field.h"
 
 namespace sinew::recording {
 
@@ -148,94 +150,41 @@ void map_where(Mapping& mapping, const std::string& column, const std::string& v
 
 namespace {
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (c == '\n') {
-      out += "\\n";
-      continue;
-    }
-    out += c;
-  }
-  return out + '"';
-}
-
-// Writes lines `key = "value"  # comment`, except for empty values.
-class Lines {
- public:
-  void comment(const std::string& text) { out_ += "# " + text + "\n"; }
-  void head(const std::string& text) { out_ += "\n" + text + "\n"; }
-  void text(const char* key, const std::string& value, const char* what = "") {
-    if (!value.empty()) put(key, quoted(value), what);
-  }
-  void number(const char* key, double value, double unless, const char* what = "") {
-    if (value != unless) put(key, config::format_number(value), what);
-  }
-  void flag(const char* key, bool value, const char* what = "") {
-    if (value) put(key, "true", what);
-  }
-  void put(const char* key, const std::string& value, const char* what = "") {
-    out_ += fmt::format("{} = {}", key, value);
-    out_ += *what ? fmt::format("  # {}\n", what) : "\n";
-  }
-  std::string take() { return std::move(out_); }
-
- private:
-  std::string out_;
-};
-
-void put_table(const TableSettings& t, Lines& out) {
-  if (t.encoding.empty() && t.decimal.empty() && t.thousands.empty() && t.dates.empty() &&
-      !t.spread_times && !t.drop_incomplete && t.columns.empty())
-    return;
-  out.head("[table]  # how the file is written, where it does not show it");
-  out.text("encoding", t.encoding);
-  out.text("decimal", t.decimal);
-  out.text("thousands", t.thousands);
-  out.text("dates", t.dates);
-  out.flag("spread_times", t.spread_times);
-  out.flag("drop_incomplete", t.drop_incomplete);
-  std::string names;
-  for (const std::string& name : t.columns) names += (names.empty() ? "" : ", ") + quoted(name);
-  if (!names.empty()) out.put("columns", "[" + names + "]", "the file has no header");
-}
-
-void put_clock(const ClockMapping& c, Lines& out) {
-  if (c.column.empty() && c.unit.empty() && c.rate.empty() && c.scale == 1 && c.start.empty())
-    return;
-  out.head("[clock]");
-  out.text("column", c.column, "the times");
-  out.text("unit", c.unit);
-  out.text("rate", c.rate, "of the rows");
-  out.number("scale", c.scale, 1, "true seconds in a second of this clock");
-  out.text("start", c.start, "becomes the log's time 0");
+// Returns a value as TOML; empty if it is the default.
+std::string text_of(const units::VisitedField& f) {
+  if (f.text) return f.text->empty() ? "" : config::toml_string(*f.text);
+  if (f.number) return *f.number == 1 ? "" : config::format_number(*f.number);  // a scale
+  if (f.flag) return *f.flag ? "true" : "";
+  std::string items;
+  for (const std::string& item : *f.texts)
+    items += (items.empty() ? "" : ", ") + config::toml_string(item);
+  return items.empty() ? "" : fmt::format("[{}]", items);
 }
 
 }  // namespace
 
 std::string text_of(const Mapping& mapping) {
-  Lines out;
-  out.put("format", "\"sinew.mapping/1\"");
-  out.comment("What the columns of a recording mean: value = scale x number [unit] + offset.");
-  out.comment("docs/reference/keys.md has every key.");
-  if (mapping.keep_others) out.head("keep_others = true  # columns without a channel: /recorded/…");
-  put_table(mapping.table, out);
-  put_clock(mapping.clock, out);
-  for (const WhereMapping& w : mapping.where) {
-    out.head("[[where]]  # only rows in which this column has one of these values");
-    out.put("column", quoted(w.column));
-    out.put("values", quoted(w.values));
-  }
-  for (const ColumnMapping& c : mapping.columns) {
-    out.head("[[column]]");
-    out.put("name", quoted(c.name));
-    out.text("channel", c.channel);
-    out.text("unit", c.unit);
-    out.number("scale", c.scale, 1);
-    out.text("offset", c.offset);
-  }
-  return out.take();
+  using Type = units::FieldType;
+  std::string top =
+      "format = \"sinew.mapping/1\"\n"
+      "# What the columns of a recording mean: value = scale x number [unit] + offset.\n"
+      "# docs/reference/keys.md has every key.\n";
+  std::string tables, heading;  // heading of a table without a key so far
+  units::EachField visitor([&](const units::VisitedField& f) {
+    if (f.type == Type::list) return;
+    if (f.type == Type::table || f.type == Type::item) {
+      heading = f.type == Type::item ? fmt::format("\n[[{}]]\n", f.field.name)
+                                     : fmt::format("\n[{}]  # {}\n", f.name, f.field.doc);
+      return;
+    }
+    const std::string value = text_of(f);
+    if (value.empty()) return;
+    if (f.depth > 0) tables += std::exchange(heading, "");
+    (f.depth > 0 ? tables : top) += fmt::format("{} = {}  # {}\n", f.name, value, f.field.doc);
+  });
+  Mapping visited = mapping;  // visitors take fields by non-const reference
+  fields(visitor, visited);
+  return top + tables;
 }
 
 }  // namespace sinew::recording

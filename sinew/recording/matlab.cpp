@@ -300,11 +300,7 @@ class Columns {
   }
 
   static std::string joined(const std::vector<std::string>& names) {
-    constexpr std::size_t most = 12;
-    std::string out;
-    for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
-      out += (i > 0 ? ", " : "") + names[i];
-    return names.size() > most ? fmt::format("{} and {} more", out, names.size() - most) : out;
+    return config::listed(names, 12);
   }
 
   Variables in_;

@@ -255,19 +255,14 @@ void ColumnFinder::refuse_unit(const Heading& h, const ColumnSpec& w, const std:
 
 // Returns units of the wanted dimension with which the file's number would be in range: "mm or in".
 std::string possible_units(const ColumnSpec& spec, double number) {
-  std::string_view unit = spec.unit, reference;
-  for (const std::string_view word : {" gauge", " abs", " diff"}) {
-    if (!unit.ends_with(word)) continue;
-    reference = word;
-    unit.remove_suffix(word.size());
-  }
+  const auto [unit, reference] = units::unit_and_reference(spec.unit);
   std::string out;
   const units::Dimension dimension = units::read_unit(unit).unit.dimension;
   for (const units::Unit& u : units::known_units) {
     const double size = std::abs(number) * u.numerator / u.denominator;
     if (!(u.dimension == dimension) || size < spec.least || size > spec.most) continue;
     if (!out.empty()) out += " or ";
-    out += fmt::format("{}{}", u.name, reference);
+    out += fmt::format("{}{}{}", u.name, reference.empty() ? "" : " ", reference);
   }
   return out;
 }

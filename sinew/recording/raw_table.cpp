@@ -25,26 +25,22 @@ namespace {
 
 constexpr double seconds_per_day = 86400;
 
-// Usual names of a time column, in lower case, and the unit that each implies.
-struct ClockName {
-  std::string_view name, unit;
+// Usual names of a time column, in lower case and in the order in which they are tried, and the
+// unit that each implies.
+struct ClockNames {
+  std::string_view unit;
+  std::vector<std::string_view> names;
 };
-constexpr ClockName clock_names[] = {{"time", ""},           {"t", ""},
-                                     {"zeit", ""},           {"timestamp", ""},
-                                     {"time stamp", ""},     {"elapsed", ""},
-                                     {"elapsed time", ""},   {"zeitstempel", ""},
-                                     {"datetime", ""},       {"date/time", ""},
-                                     {"date time", ""},      {"uhrzeit", ""},
-                                     {"date", ""},           {"datum", ""},
-                                     {"epoch", ""},          {"x_value", "s"},
-                                     {"time_s", "s"},        {"t_s", "s"},
-                                     {"zeit_s", "s"},        {"seconds", "s"},
-                                     {"sekunden", "s"},      {"time_ms", "ms"},
-                                     {"t_ms", "ms"},         {"zeit_ms", "ms"},
-                                     {"millis", "ms"},       {"milliseconds", "ms"},
-                                     {"timestamp_ms", "ms"}, {"time_us", "us"},
-                                     {"t_us", "us"},         {"micros", "us"},
-                                     {"timestamp_us", "us"}};
+const std::vector<ClockNames>& clock_names() {
+  static const std::vector<ClockNames> all = {
+      {"",
+       {"time", "t", "zeit", "timestamp", "time stamp", "elapsed", "elapsed time", "zeitstempel",
+        "datetime", "date/time", "date time", "uhrzeit", "date", "datum", "epoch"}},
+      {"s", {"x_value", "time_s", "t_s", "zeit_s", "seconds", "sekunden"}},
+      {"ms", {"time_ms", "t_ms", "zeit_ms", "millis", "milliseconds", "timestamp_ms"}},
+      {"us", {"time_us", "t_us", "micros", "timestamp_us"}}};
+  return all;
+}
 
 // Reads all columns of a grid, or those of one of its clocks.
 class RawReader {
@@ -95,9 +91,10 @@ class RawReader {
       const auto at = std::ranges::find(kinds(), kind);
       if (at != kinds().end()) return static_cast<std::size_t>(at - kinds().begin());
     }
-    for (const ClockName& known : clock_names)
-      for (std::size_t i = 0; i < grid_.headings().size(); ++i)
-        if (units::lower(grid_.headings()[i].name) == known.name) return i;
+    for (const ClockNames& known : clock_names())
+      for (const std::string_view name : known.names)
+        for (std::size_t i = 0; i < grid_.headings().size(); ++i)
+          if (units::lower(grid_.headings()[i].name) == name) return i;
     if (const auto pair = split_seconds(grid_)) return pair->seconds;
     return std::nullopt;
   }
@@ -126,8 +123,9 @@ class RawReader {
     const bool is_given = stated != source_.units.end() ||
                           (stated = source_.clock_units.find(h.name)) != source_.clock_units.end();
     std::string unit = is_given ? stated->second : h.file_unit;
-    const auto* known = std::ranges::find(clock_names, units::lower(h.name), &ClockName::name);
-    if (unit.empty() && known != std::end(clock_names)) unit = known->unit;
+    for (const ClockNames& known : clock_names())
+      if (unit.empty() && std::ranges::count(known.names, units::lower(h.name)) > 0)
+        unit = known.unit;
     for (const config::Spelling& meaning : config::spellings(unit)) {
       const config::Parsed one = config::parse_quantity("1 " + meaning.unit, "s");
       if (one.mistake) continue;

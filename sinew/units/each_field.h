@@ -53,7 +53,7 @@ struct VisitedField {
   std::string* text = nullptr;
   std::vector<std::string>* texts = nullptr;
   std::string_view per = "";                 // unit of a polynomial's argument
-  std::vector<std::string_view> words = {};  // of a choice
+  std::vector<std::string_view> words = {};  // words of a choice
   std::size_t choice = 0;                    // index in `words`; their number: none of them
 };
 

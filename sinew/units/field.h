@@ -8,7 +8,7 @@
 //   }
 //
 // The same function reads the struct from a file, prints it, documents it and names the channels'
-// metadata. Two visitors suffice: config::Reader, and EachField (each_field.h), which calls a function.
+// metadata. The visitors are config::Reader and EachField (each_field.h).
 //
 // A visitor has:
 //   v.number(Field, double&)                  a quantity; text in files, SI in the struct

@@ -180,16 +180,6 @@ inline constexpr std::array shown_quantities = {
 };
 // clang-format on
 
-// Splits "psi gauge" into the unit and the reference of a pressure: "gauge", "abs", "diff" or "".
-constexpr std::array<std::string_view, 2> unit_and_reference(std::string_view text) {
-  for (const std::string_view word : {"gauge", "abs", "diff"}) {
-    if (text == word) return {"", word};
-    if (text.ends_with(word) && text[text.size() - word.size() - 1] == ' ')
-      return {text.substr(0, text.find_last_not_of(' ', text.size() - word.size() - 1) + 1), word};
-  }
-  return {text, ""};
-}
-
 // Returns whether a shown unit has the dimension of the stored unit.
 constexpr bool measures(std::string_view shown, std::string_view unit) {
   const UnitReading a = read_unit(unit_and_reference(shown)[0]);

@@ -202,6 +202,16 @@ class UnitReader {
   std::string_view trouble_;
 };
 
+// Splits "psi gauge" into the unit and the reference of a pressure: "gauge", "abs", "diff" or "".
+constexpr std::array<std::string_view, 2> unit_and_reference(std::string_view text) {
+  for (const std::string_view word : {"gauge", "abs", "diff"}) {
+    if (text == word) return {"", word};
+    if (text.ends_with(word) && text[text.size() - word.size() - 1] == ' ')
+      return {text.substr(0, text.find_last_not_of(' ', text.size() - word.size() - 1) + 1), word};
+  }
+  return {text, ""};
+}
+
 // Returns the unit that the text names, or its invalid part.
 constexpr UnitReading read_unit(std::string_view text) { return UnitReader(text).read(); }
 

@@ -89,10 +89,10 @@ export const difference_unit = (unit) => (unit === 'Pa' ? 'Pa diff' : unit);
 
 // "trolley.mean_speed_m_per_s" -> its unit in SI, as in docs/reference/analysis.md.
 const endings = [
-  ['_Nm_per_rad', 'N m/rad'], ['_rad_per_s', 'rad/s'], ['_m_per_s', 'm/s'],
+  ['_Nm_per_rad', 'N m/rad'], ['_N_s_per_m', 'N s/m'], ['_rad_per_s', 'rad/s'], ['_m_per_s', 'm/s'],
   ['_kg_per_m', 'kg/m'], ['_s_per_m', 's/m'], ['_J_per_m', 'J/m'], ['_per_m', '1/m'],
   ['_rad', 'rad'], ['_Nm', 'N m'], ['_kg', 'kg'], ['_count', 'count'],
-  ['_diff_Pa', 'Pa diff'], ['_Pa', 'Pa'],
+  ['_diff_Pa', 'Pa diff'], ['_Pa', 'Pa'], ['_Hz', 'Hz'],
   ['_N', 'N'], ['_J', 'J'], ['_m', 'm'], ['_s', 's'],
 ];
 export function unit_of_key(key) {
