@@ -15,9 +15,6 @@
 #include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/host/side_by_side.h"
-#include "sinew/identify/contest/refusal.h"
-#include "sinew/identify/page/fit_page.h"
-#include "sinew/identify/task/found_text.h"
 #include "sinew/identify/task/inputs.h"
 #include "sinew/identify/task/methods.h"
 #include "sinew/identify/task/tables.h"
@@ -285,11 +282,17 @@ void write_output(const std::string& file, const std::string& text, const Result
   Messages(options.quiet).note(fmt::format("{}: written", file));
 }
 
-std::string file_of_muscle(const std::string& out, const identify::StaticMuscle& muscle) {
-  const std::filesystem::path path(out);
-  return (path.parent_path() / fmt::format("{}-{:.0f}mm{}", path.stem().string(),
-                                           1e3 * muscle.rest_length, path.extension().string()))
-      .string();
+// Writes the files of further muscles next to that of the first one.
+void write_further(const identify::Found& found, const ResultOptions& options) {
+  const std::filesystem::path out(options.out);
+  for (std::size_t i = 1; i < found.files.size() && !options.out.empty(); ++i) {
+    const std::string& suffix = found.files[i].suffix;
+    if (suffix.empty()) continue;
+    const std::string file =
+        out.parent_path() / (out.stem().string() + suffix + out.extension().string());
+    refuse_to_replace(file, options.force, parameter_file);
+    write_output(file, found.file(file, i), options);
+  }
 }
 
 // Refuses the second file of a method where it exists already.
@@ -303,66 +306,23 @@ void check_beside(const Options<Settings>& options) {
   identify::refuse_fitted(sources_of(options.data), "predict_dat", file);
 }
 
-// Writes what a method makes besides its parameter file.
-template <class Found, class Settings>
-void write_beside(const Found&, const Options<Settings>&) {}
+// Writes the second file of a method.
+void write_beside(const identify::Found&, const ResultOptions&) {}
 
-void write_beside(const identify::JointFound& found,
-                  const Options<identify::JointSettings>& options) {
-  write_output(options.result.beside, found.actuator_file, options.result);
+void write_beside(const identify::JointFound& found, const ResultOptions& options) {
+  write_output(options.beside, found.file(options.beside, 1), options);
 }
 
 // The compensated table, where the delays are known.
-void write_beside(const identify::ValveFound& found,
-                  const Options<identify::ValveSettings>& options) {
-  if (options.result.beside.empty() || !found.result.refused.empty()) return;
-  const identify::TimingFile timing = identify::timing_of(found, options.settings.frequency);
-  run::write_file(options.result.beside, timing.text);
-  Messages(options.result.quiet)
+void write_beside(const identify::ValveFound& found, const ResultOptions& options) {
+  if (options.beside.empty() || !found.refused.empty()) return;
+  const identify::TimingFile timing = identify::timing_of(found);
+  run::write_file(options.beside, timing.text);
+  Messages(options.quiet)
       .note(
           fmt::format("{}: written for {:g} Hz; the delivered duty differs from the commanded one "
                       "by {:.1f} % at most",
-                      options.result.beside, timing.frequency, 100 * timing.worst));
-}
-
-// Writes each further muscle of the make into a file next to that of the first one.
-void write_beside(const identify::StaticFound& found,
-                  const Options<identify::StaticSettings>& options) {
-  if (options.result.out.empty()) return;
-  const auto write = [&](const identify::StaticMuscle& muscle, const std::string& text) {
-    const std::string file = file_of_muscle(options.result.out, muscle);
-    refuse_to_replace(file, options.result.force, parameter_file);
-    write_output(file, text, options.result);
-  };
-  for (std::size_t i = 1; i < found.files.size(); ++i)
-    write(found.result.muscles[i], found.files[i]);
-  for (std::size_t i = 0; i < found.predicted.size(); ++i)
-    write(found.predicted[i], found.predicted_files[i]);
-}
-
-// --- messages ---
-
-// Prints the notes and warnings of what was found.
-template <class Found>
-void print_messages(const Found& found, const Messages& messages) {
-  if constexpr (requires { found.calibration; }) {
-    for (const std::string& note : found.calibration.notes) messages.note(note);
-    for (const std::string& warning : found.calibration.warnings) messages.warning(warning);
-    if (found.calibration.sensors.size() == 1) return;
-    for (const identify::SensorResult& sensor : found.calibration.sensors)
-      for (const std::string& note : sensor.report.notes) messages.note(note);
-  } else if constexpr (requires { found.plan; }) {
-    for (const std::string& note : found.notes) messages.note(as_options(note));
-  } else if constexpr (requires { found.corrected_by; }) {
-    if (!found.doubt.empty()) messages.warning(found.doubt);
-    if (!(found.actuator.prediction.inside_95 > 0))
-      messages.warning(
-          "how far off it is is unknown: no muscle was left out when the file was made; fit "
-          "muscles of two rest lengths at least");
-  } else if (const auto reports = identify::reports_of(found); !reports.empty()) {
-    for (const std::string& note : reports[0]->notes) messages.note(note);
-    for (const std::string& warning : reports[0]->warnings) messages.warning(warning);
-  }
+                      options.beside, timing.frequency, 100 * timing.worst));
 }
 
 // --- a method from its options to its files ---
@@ -396,41 +356,30 @@ auto find(const Options<identify::PlanSettings>& options, const identify::Method
                         identify::atmosphere_setting(options.data.atmosphere));
 }
 
-// Returns the text of a method's own file, as it would stand at `out`; empty: it makes none. The
-// page shows its values as well, where the data support a file.
-template <class Found>
-std::string own_file(const std::shared_ptr<const Found>& found, const std::string& out) {
-  const auto files = identify::files_of(found);
-  if (files.empty() || !identify::refused(*found).empty()) return "";
-  try {
-    return files[0](out);
-  } catch (const identify::Refusal&) {
-    if (!out.empty()) throw;
-    return "";
-  }
-}
-
-template <class Found>
-void leave_page(const Found& found, const std::string& file, const DataOptions& data,
-                const ResultOptions& options) {
-  const std::vector<const identify::Report*> reports = identify::reports_of(found);
-  const std::string page = page_of(options);
-  if (page.empty() || reports.empty()) return;
-  std::string title = identify::title_of(found);
-  if (title.empty()) title = reports[0]->title;
-  if (title.empty()) title = reports[0]->subject;
-  write_output(page,
-               identify::page({.title = title,
-                               .version = SINEW_VERSION,
-                               .data = identify::words_of(sources_of(data)),
-                               .atmosphere = identify::atmosphere_setting(data.atmosphere),
-                               .reports = reports,
-                               .parameter_file = file}),
-               options);
-}
-
-// Finds, writes the files that are wanted, and prints: files come first, as a reader that ends
+// Writes the files and the page, and prints the result: files come first, as a reader that ends
 // early, such as head, ends the program.
+ExitCode report(const identify::Found& found, const DataOptions& data,
+                const ResultOptions& options) {
+  write_further(found, options);
+  const std::string file = found.own_file(options.out);
+  const Messages messages(options.quiet);
+  for (const std::string& note : found.remarks.notes) messages.note(note);
+  for (const std::string& warning : found.remarks.warnings) messages.warning(warning);
+  if (!file.empty()) write_output(options.out, file, options);
+  const double atmosphere = identify::atmosphere_setting(data.atmosphere);
+  const std::string page = page_of(options);
+  if (!page.empty() && !found.reports.empty())
+    write_output(page, found.page(sources_of(data), atmosphere, SINEW_VERSION, options.out),
+                 options);
+  if (options.json)
+    fmt::print("{}\n", found.json.text(2));
+  else
+    fmt::print("{}", as_options(found.text({chosen_units(options.units, units::UnitSet::si),
+                                            atmosphere, width_of_output()})));
+  if (!found.refused.empty()) error(found.refused);
+  return found.fails || !found.refused.empty() ? failed : ok;
+}
+
 template <class Settings>
 ExitCode run_method(const Options<Settings>& options, const identify::MethodRow& row) {
   const bool plan = std::is_same_v<Settings, identify::PlanSettings>;
@@ -440,29 +389,9 @@ ExitCode run_method(const Options<Settings>& options, const identify::MethodRow&
   NeedsOut needs;
   if (options.result.out.empty()) fields(needs, settings);
   check_beside(options);
-
-  using Found = decltype(find(options, row));
-  const auto found = std::make_shared<const Found>(find(options, row));
-  write_beside(*found, options);
-  const std::string file = own_file(found, options.result.out);
-  print_messages(*found, Messages(options.result.quiet));
-  if (!file.empty()) write_output(options.result.out, file, options.result);
-  const DataOptions data = read_by(options);
-  leave_page(*found, file, data, options.result);
-  if (options.result.json)
-    fmt::print("{}\n", identify::to_json(*found).text(2));
-  else
-    fmt::print("{}",
-               as_options(identify::text_of(
-                   *found, {chosen_units(options.result.units, units::UnitSet::si),
-                            identify::atmosphere_setting(data.atmosphere), width_of_output()})));
-  if (const std::string why = identify::refused(*found); !why.empty()) {
-    error(why);
-    return failed;
-  }
-  if constexpr (requires { found->checks; })  // so that a script stops
-    return identify::has_red(found->checks) ? failed : ok;
-  return ok;
+  const auto found = find(options, row);
+  write_beside(found, options.result);
+  return report(found, read_by(options), options.result);
 }
 
 template <class Settings>

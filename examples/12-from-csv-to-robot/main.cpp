@@ -37,7 +37,7 @@ std::string actuator_file() {
   for (const identify::Estimate& p : law.parameters)
     std::printf("  %-20s %10.4g%s\n", p.name.c_str(), p.value,
                 p.unit == "1" ? "" : (" " + p.unit).c_str());
-  return found.files.front();
+  return found.file();
 }
 
 // Returns the gain with the smallest tracking error, as text of the table.

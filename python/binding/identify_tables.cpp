@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include <functional>
-#include <optional>
+#include <memory>
 
 #include "python/binding/recording.h"
 #include "python/binding/settings.h"
 #include "sinew/host/stop.h"
-#include "sinew/identify/contest/refusal.h"
-#include "sinew/identify/page/fit_page.h"
 #include "sinew/identify/task/inputs.h"
 #include "sinew/identify/task/methods.h"
 #include "sinew/identify/task/tables.h"
@@ -22,16 +19,11 @@ namespace {
 
 using Sources = std::vector<identify::Source>;
 
-// Result of any method.
+// Result of any method, and the tables that it was found in.
 struct Identified {
-  std::string report;  // text of --json
-  std::vector<identify::FileText> files;
-  std::string refused;  // why the data do not support a file
-  std::function<identify::TimingFile(const std::string&)> timing;  // timing file of a valve
-  std::function<std::vector<const identify::Report*>()> reports;   // reports on its page
-  std::string title;
-  std::vector<std::string> read;  // descriptions of the tables
-  double atmosphere = 0;          // [Pa]
+  std::shared_ptr<const identify::Found> found;
+  std::shared_ptr<const identify::ValveFound> valve = nullptr;  // the same, of a valve
+  Sources sources;
 };
 
 // Reads the settings of a method from Python keywords. A visitor of identify/task/settings.h.
@@ -92,24 +84,15 @@ Identified found_by(Method settings, const Sources& sources, const py::dict& giv
   Keywords keywords(given);
   fields(keywords, settings);
   keywords.refuse_others();
-  using Found = decltype(identify::find(sources, settings));
-  std::shared_ptr<const Found> found;
+  Identified out{.found = nullptr, .sources = sources};
   std::atomic<bool> stop = false;
   do_interruptibly(stop, [&] {
     const host::Stoppable stoppable(&stop);
-    found = std::make_shared<const Found>(identify::find(sources, settings));
+    const auto found = std::make_shared<const decltype(identify::find(sources, settings))>(
+        identify::find(sources, settings));
+    out.found = found;
+    if constexpr (std::is_assignable_v<decltype(out.valve)&, decltype(found)>) out.valve = found;
   });
-  Identified out{.report = identify::to_json(*found).text(),
-                 .files = identify::files_of(found),
-                 .refused = identify::refused(*found),
-                 .reports = [found] { return identify::reports_of(*found); },
-                 .title = identify::title_of(*found),
-                 .read = identify::words_of(sources)};
-  if constexpr (std::is_same_v<Found, identify::ValveFound>)
-    out.timing = [found, settings](const std::string& frequency) {
-      return identify::timing_of(*found, frequency.empty() ? settings.frequency : frequency);
-    };
-  if (!sources.empty()) out.atmosphere = sources.front().atmosphere;
   return out;
 }
 
@@ -174,48 +157,34 @@ std::string identify_template(const std::string& method, const std::string& kind
   return identify::template_of(identify::inputs_of(method), kind);
 }
 
-std::string text_of(const Identified& found, std::size_t which, const std::string& out) {
-  if (which >= found.files.size())
+std::string text_of(const Identified& of, std::size_t which, const std::string& out) {
+  if (which >= of.found->files.size())
     throw py::index_error(
-        fmt::format("file: found {}; expected less than {}", which, found.files.size()));
-  return found.files[which](out);
-}
-
-// Returns the file with the values for the page; empty if the data do not support one.
-std::string file_for_page(const Identified& found) try {
-  return found.files.empty() ? "" : found.files[0]("");
-} catch (const identify::Refusal&) {
-  return "";
+        fmt::format("file: found {}; expected less than {}", which, of.found->files.size()));
+  return of.found->file(out, which);
 }
 
 // Returns the page with data and models, like `--report`.
-std::string page_of(const Identified& found) {
-  const std::vector<const identify::Report*> reports = found.reports();
-  if (reports.empty())
+std::string page_of(const Identified& of) {
+  if (of.found->reports.empty())
     throw std::invalid_argument("page: found a braid that was counted; expected a table to show");
-  const identify::Report& first = *reports[0];
-  const std::string of_first = first.title.empty() ? first.subject : first.title;
-  return identify::page({.title = found.title.empty() ? of_first : found.title,
-                         .version = SINEW_VERSION,
-                         .data = found.read,
-                         .atmosphere = found.atmosphere,
-                         .reports = reports,
-                         .parameter_file = file_for_page(found)});
+  return of.found->page(of.sources, of.sources.empty() ? 0 : of.sources.front().atmosphere,
+                        SINEW_VERSION);
 }
 
 // Returns the page for a notebook cell.
-py::object cell(const Identified& found) {
-  if (found.reports().empty() || !report::has_page()) return py::none();
-  return in_a_cell(page_of(found));
+py::object cell(const Identified& of) {
+  if (of.found->reports.empty() || !report::has_page()) return py::none();
+  return in_a_cell(page_of(of));
 }
 
-py::tuple timing(const Identified& found, const py::object& given) {
-  if (!found.timing) throw std::invalid_argument("timing: found no valve");
+py::tuple timing(const Identified& of, const py::object& given) {
+  if (!of.valve) throw std::invalid_argument("timing: found no valve");
   std::string frequency;
   py::dict only;
   only["frequency"] = given;
   Settings(only).quantity("frequency", "Hz", frequency);
-  const identify::TimingFile file = found.timing(frequency);
+  const identify::TimingFile file = identify::timing_of(*of.valve, frequency);
   return py::make_tuple(file.text, file.worst);
 }
 
@@ -224,13 +193,14 @@ py::tuple timing(const Identified& found, const py::object& given) {
 void bind_identify_tables(py::module_& m) {
   py::class_<Identified>(m, "Identified", "What a method of identification found.")
       .def_property_readonly(
-          "report", [](const Identified& f) { return parsed(f.report); },
+          "report", [](const Identified& of) { return parsed(of.found->json.text()); },
           "The report, as `sinew identify --json` prints it.")
       .def_property_readonly(
-          "files", [](const Identified& f) { return f.files.size(); },
+          "files", [](const Identified& of) { return of.found->files.size(); },
           "How many parameter files there are.")
-      .def_readonly("refused", &Identified::refused,
-                    "What the data do not support; empty: nothing.")
+      .def_property_readonly(
+          "refused", [](const Identified& of) { return of.found->refused; },
+          "What the data do not support; empty: nothing.")
       .def("text", &text_of, py::arg("which"), py::arg("out"),
            "Returns the text of a parameter file, as it would stand at `out`.")
       .def("page", &page_of, "Returns the page with the data and the models, as HTML.")

@@ -274,8 +274,8 @@ std::vector<Plot> charts_of(const Report& report) {
 std::string page(const Page& page) {
   report::FitPage fit{.title = page.title, .version = page.version, .data = page.data};
   fit.atmosphere = page.atmosphere;
-  for (const Report* r : page.reports)
-    fit.parts.push_back({.report = to_json(*r).text(), .charts = charts_of(*r)});
+  for (const Report& r : page.reports)
+    fit.parts.push_back({.report = to_json(r).text(), .charts = charts_of(r)});
   if (!page.parameter_file.empty())
     fit.values = report::parameters(config::parse_text(page.parameter_file, "the parameter file"));
   return report::page(fit);

@@ -19,42 +19,20 @@
 #include "sinew/identify/motion/dynamic.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
+#include "sinew/report/text/text_table.h"
+#include "sinew/units/shown.h"
 
 namespace sinew::identify {
 
 namespace {
 
-// --- damping and dry friction as a parameter file and as JSON ---
-
-// Returns the losses of one record, from two points and from all turning points, in SI with the
+// Returns the losses of one record, from two points or from all turning points, in SI with the
 // unit in the key.
 Json describe(const Damping& d) {
   return {{"coulomb_length_m", d.coulomb_length},
           {"viscous_N_s_per_m", d.viscous},
           {"kept_per_period", d.kept},
           {"equivalent_damping_ratio", d.ratio}};
-}
-
-Json describe(const DynamicResult& found) {
-  Json out;
-  for (const DecaySummary& s : found.records) {
-    Json r{{"file", s.file},
-           {"turns", s.turns},
-           {"period_s", s.period},
-           {"noise_m", s.noise},
-           {"rest_length_m", s.rest},
-           {"first_amplitude_m", s.amplitude},
-           {"sealed_stiffness_N_per_m", s.stiffness},
-           {"friction_at_rest_N", s.friction},
-           {"exponent", s.exponent}};
-    if (std::isfinite(s.pressure_delay)) r["pressure_delay_s"] = s.pressure_delay;
-    if (s.printed) r["two_point_printed"] = describe(*s.printed);
-    if (s.exact) r["two_point_exact"] = describe(*s.exact);
-    if (!s.exact) r["two_point_refused"] = s.why_not;
-    r["all_turns"] = describe(s.all.damping);
-    out["records"].push_back(r);
-  }
-  return out;
 }
 
 // Returns the text of the actuator's file with the identified [loss]. `start` are the origins of
@@ -114,6 +92,61 @@ std::vector<DecayRecord> records_of(std::vector<Source> sources, const DynamicSe
   return out;
 }
 
+// Damping by each way of evaluation, compared with the fitted trajectories.
+void put_methods(const DynamicFound& of, const TextOptions& how, std::string& out) {
+  using enum report::TextTable::Align;
+  const DynamicResult& found = of.result;
+  const config::UnitsToShow& chosen = how.units;
+  const units::ShownUnit length =
+      chosen.is_requested ? chosen.units.of("m") : units::ShownUnit{"mm", 1e3};
+  const units::ShownUnit force = chosen.units.of("N"), damping = chosen.units.of("N s/m");
+  // Without a choice of units each column has its own number of decimals.
+  const auto in = [&](const units::ShownUnit& unit, double si, int decimals = 4) {
+    return chosen.is_requested ? fmt::format("{:.4g}", unit.of(si))
+                               : fmt::format("{:.{}f}", unit.of(si), decimals);
+  };
+  report::TextTable table(
+      {"file", "method", "Q [" + length.name + "]", "friction at rest [" + force.name + "]",
+       "c [" + damping.name + "]", "zeta [53]"},
+      {left, left, right, right, right, right});
+  const auto row = [&](const DecaySummary& s, const char* method, const Damping& d) {
+    table.add({s.file, method, in(length, d.coulomb_length, 5),
+               in(force, d.coulomb_length * s.stiffness), in(damping, d.viscous),
+               fmt::format("{:.4f}", d.ratio)});
+  };
+  for (const DecaySummary& s : found.records) {
+    if (s.printed) row(s, "two points, [45] as printed", *s.printed);
+    if (s.exact) row(s, "two points, exact", *s.exact);
+    row(s, "all turns", s.all.damping);
+    table.add({s.file, "trajectory, " + found.report.best().model,
+               in(length, found.loss.coulomb_length, 5), in(force, s.friction),
+               in(damping, found.loss.viscous), ""});
+  }
+  put(out, "\n{}", table.text());
+  for (const DecaySummary& s : found.records)
+    if (!s.exact) put(out, "no two points: {}\n", s.why_not);
+}
+
+void add_json(const DynamicResult& result, Json& out) {
+  for (const DecaySummary& s : result.records) {
+    Json r{{"file", s.file},
+           {"turns", s.turns},
+           {"period_s", s.period},
+           {"noise_m", s.noise},
+           {"rest_length_m", s.rest},
+           {"first_amplitude_m", s.amplitude},
+           {"sealed_stiffness_N_per_m", s.stiffness},
+           {"friction_at_rest_N", s.friction},
+           {"exponent", s.exponent}};
+    if (std::isfinite(s.pressure_delay)) r["pressure_delay_s"] = s.pressure_delay;
+    if (s.printed) r["two_point_printed"] = describe(*s.printed);
+    if (s.exact) r["two_point_exact"] = describe(*s.exact);
+    if (!s.exact) r["two_point_refused"] = s.why_not;
+    r["all_turns"] = describe(s.all.damping);
+    out["records"].push_back(r);
+  }
+}
+
 }  // namespace
 
 DynamicFound find(const SourceList& sources, const DynamicSettings& settings) {
@@ -122,16 +155,12 @@ DynamicFound find(const SourceList& sources, const DynamicSettings& settings) {
   const experiment::MachineFile start = experiment::load_machine_file(settings.actuator);
   const actuator::Actuator& a =
       config::named(start.experiment.actuators, settings.name, "name", "actuator");
-  DynamicFound out{identify_dynamic(records_of(sources, settings, values, a), settings.model,
-                                    Constraints(settings.constraints)),
-                   ""};
-  out.file = loss_file(start.experiment.origins, settings.actuator, a, out.result, sources);
-  return out;
-}
-
-Json to_json(const DynamicFound& found) {
-  Json out = to_json(found.result.report);
-  out.update(describe(found.result));
+  DynamicFound out(identify_dynamic(records_of(sources, settings, values, a), settings.model,
+                                    Constraints(settings.constraints)));
+  out.files = {
+      file_with(loss_file(start.experiment.origins, settings.actuator, a, out.result, sources))};
+  add_json(out.result, out.json);
+  prints(out, put_methods);
   return out;
 }
 

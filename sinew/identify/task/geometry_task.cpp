@@ -6,6 +6,7 @@
 #include "sinew/actuator/actuator.h"
 #include "sinew/actuator/braid.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/identify/contest/fit.h"
 #include "sinew/identify/contest/provenance.h"
@@ -16,8 +17,6 @@
 namespace sinew::identify {
 
 namespace {
-
-// --- a braid as an actuator's parameter file and as JSON ---
 
 // Returns an actuator with this braid and guesses for the rest, so that the file can be read: the
 // mesh ends where its threads are straight, and there are no losses.
@@ -49,21 +48,34 @@ actuator::Actuator actuator_of(const actuator::Braid& braid, const std::string& 
   return a;
 }
 
-// Returns the text of an actuator's file with this braid and guesses for the rest: ends as in the
-// thesis, reached where the threads are straight, and no losses. `report` gives the intervals of
-// fitted values; nullptr: the braid was counted.
-std::string braid_file(const actuator::Braid& braid, const std::string& name,
-                       const std::string& source, const Report* report = nullptr) {
-  Provenance provenance;
-  const actuator::Actuator a = actuator_of(braid, name, source, report, provenance);
-  return actuator_file(a, provenance);
+void put_braid(const GeometryFound& found, const TextOptions& how, std::string& out) {
+  if (!found.reports.empty()) return;
+  const config::UnitsToShow chosen = how.units;
+  const std::string unit = chosen.is_requested ? chosen.units.of("m").name : "mm";
+  put(out, "thread_length  {}  [17]\nturns          {}  [18]\nshortest       {}  [5], [6]\n",
+      config::format_quantity(found.braid.thread_length, "m", unit),
+      config::format_number(found.braid.turns),
+      config::format_quantity(actuator::shortest_length(found.braid), "m", unit));
 }
 
-// Returns thread length, turns and shortest length, in SI with the unit in the key.
-Json describe(const actuator::Braid& braid) {
-  return {{"thread_length_m", braid.thread_length},
-          {"turns", braid.turns},
-          {"shortest_length_m", actuator::shortest_length(braid)}};
+// Returns the result with an actuator's file of this braid and guesses for the rest.
+GeometryFound found_of(const actuator::Braid& braid, const Report* report, const std::string& name,
+                       const std::string& source) {
+  GeometryFound out;
+  out.braid = braid;
+  if (report) {
+    out.reports = {*report};
+    out.remarks = {report->notes, report->warnings};
+    out.json = to_json(*report);
+  }
+  out.json["thread_length_m"] = braid.thread_length;
+  out.json["turns"] = braid.turns;
+  out.json["shortest_length_m"] = actuator::shortest_length(braid);
+  prints(out, put_braid);
+  Provenance provenance;
+  const actuator::Actuator a = actuator_of(braid, name, source, report, provenance);
+  out.files = {file_with(actuator_file(a, provenance))};
+  return out;
 }
 
 // Computes the braid from counted trapezoids.
@@ -79,7 +91,7 @@ GeometryFound count_geometry(const GeometrySettings& settings, double side) {
   const actuator::Braid braid = actuator::braid_from_trapezoids(counts[0], counts[1], side);
   const std::string source =
       fmt::format("{} x {} trapezoids of {}, [17], [18]", counts[0], counts[1], settings.side);
-  return {braid, {}, braid_file(braid, settings.name, source)};
+  return found_of(braid, nullptr, settings.name, source);
 }
 
 }  // namespace
@@ -98,20 +110,8 @@ GeometryFound find(const SourceList& sources, const GeometrySettings& settings) 
   const GeometryResult found =
       identify_geometry(each_row_once(read_measured(source, geometry_columns())),
                         values.of(settings.thread_thickness));
-  return {found.braid, found.report,
-          braid_file(found.braid, settings.name, "sinew identify geometry " + source.path,
-                     &found.report)};
-}
-
-Json to_json(const GeometryFound& found) {
-  Json out = Json::object();
-  if (found.report) out = to_json(*found.report);
-  out.update(describe(found.braid));
-  return out;
-}
-
-Reports reports_of(const GeometryFound& found) {
-  return found.report ? Reports{&*found.report} : Reports{};
+  return found_of(found.braid, &found.report, settings.name,
+                  "sinew identify geometry " + source.path);
 }
 
 }  // namespace sinew::identify

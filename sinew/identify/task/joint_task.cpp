@@ -15,13 +15,12 @@
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
+#include "sinew/report/text/text_table.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::identify {
 
 namespace {
-
-// --- the identified joint as JSON and as a part of a robot ---
 
 using robot::Joint;
 using robot::Muscle;
@@ -40,10 +39,10 @@ void note_origin(const JointResult& found, std::string_view parameter_name, cons
     provenance.given(path, "given to " + source);
 }
 
-// Returns the text of a robot's file: `robot`, its beginning, with the tables of the joint and its
-// muscles. `source` describes their origin.
-std::string joint_file(const JointResult& found, const JointSetup& setup, const JointNames& names,
-                       const std::string& source, config::Node robot) {
+// Returns the tables of the joint and its muscles in a robot's file. `source` describes their
+// origin.
+config::Node tables_of(const JointResult& found, const JointSetup& setup, const JointNames& names,
+                       const std::string& source) {
   Provenance provenance;
   std::vector<Joint> joints(1);
   joints[0].name = names.joint;
@@ -95,8 +94,7 @@ std::string joint_file(const JointResult& found, const JointSetup& setup, const 
       g.numbers({.name = "radius", .unit = "m"}, m.cam.radii);
     });
   });
-  for (const config::Node& child : writer.root().children) robot.put(child);
-  return config::to_toml(robot);
+  return writer.root();
 }
 
 // Returns the text of the actuator's file with the identified effectiveness, unless `keep_force`.
@@ -119,18 +117,6 @@ std::string effectiveness_file(const config::Origins& start, const std::string& 
     a.effectiveness = found.effectiveness;
   }
   return actuator_file(a, provenance);
-}
-
-// Returns moment arm, lengths and determined combinations, in SI with the unit in the key.
-Json describe(const JointResult& found) {
-  Json out{{"moment_arm_m", found.moment_arm}};
-  if (std::isfinite(found.flexor_length)) out["flexor_length_m"] = found.flexor_length;
-  if (std::isfinite(found.extensor_length)) out["extensor_length_m"] = found.extensor_length;
-  out["combinations"] = Json::array();
-  for (const Combination& c : found.combinations)
-    out["combinations"].push_back(
-        {{"combination", c.text}, {"relative_error", finite_or_null(c.relative_error)}});
-  return out;
 }
 
 // --- settings and tables ---
@@ -195,6 +181,26 @@ Measured joined(const std::vector<Source>& sources, bool moving) {
   return out;
 }
 
+void put_combinations(const JointFound& found, const TextOptions&, std::string& out) {
+  report::TextTable table({"what the data determine, best first", "95 %"},
+                          {report::TextTable::Align::left, report::TextTable::Align::right});
+  for (const Combination& c : found.result.combinations)
+    table.add({c.text, std::isfinite(c.relative_error)
+                           ? fmt::format("+- {:.2g} %", 100 * c.relative_error)
+                           : "undetermined"});
+  put(out, "\n{}", table.text());
+}
+
+void add_json(const JointResult& result, Json& out) {
+  out["moment_arm_m"] = result.moment_arm;
+  if (std::isfinite(result.flexor_length)) out["flexor_length_m"] = result.flexor_length;
+  if (std::isfinite(result.extensor_length)) out["extensor_length_m"] = result.extensor_length;
+  out["combinations"] = Json::array();
+  for (const Combination& c : result.combinations)
+    out["combinations"].push_back(
+        {{"combination", c.text}, {"relative_error", finite_or_null(c.relative_error)}});
+}
+
 }  // namespace
 
 JointFound find(const SourceList& sources, const JointSettings& settings) {
@@ -214,24 +220,14 @@ JointFound find(const SourceList& sources, const JointSettings& settings) {
   std::optional<Measured> held_out;
   for (const Source& other : held_out_tables(settings.hold_out, sources))
     held_out = poses_averaged(read_measured(other, joint_columns(settings.moving)));
-  JointFound out{.result = identify_joint(data, held_out, setup, settings.model,
-                                          Constraints(settings.constraints), settings.tried),
-                 .setup = setup,
-                 .names = names,
-                 .base = settings.base};
-  out.source = source_words("joint", sources, out.result.report.best().model);
-  out.actuator_file = effectiveness_file(start.experiment.origins, settings.actuator, a, out.result,
-                                         settings.keep_force, out.source);
-  return out;
-}
-
-std::string JointFound::file(const std::string& out) const {
-  return joint_file(result, setup, names, source, robot_over(base, out));
-}
-
-Json to_json(const JointFound& found) {
-  Json out = to_json(found.result.report);
-  out.update(describe(found.result));
+  JointFound out(identify_joint(data, held_out, setup, settings.model,
+                                Constraints(settings.constraints), settings.tried));
+  const std::string source = source_words("joint", sources, out.result.report.best().model);
+  out.files = {part_of_robot(tables_of(out.result, setup, names, source), settings.base),
+               file_with(effectiveness_file(start.experiment.origins, settings.actuator, a,
+                                            out.result, settings.keep_force, source))};
+  add_json(out.result, out.json);
+  prints(out, put_combinations);
   return out;
 }
 

@@ -1,10 +1,7 @@
 // identify/task/methods.h - the methods of identification: results found in tables with the
-// settings of settings.fields.h. All throw config::Error and Refusal. The functions at the end
-// treat all methods alike, for the command line and Python.
+// settings of settings.fields.h. All throw config::Error and Refusal.
 #pragma once
 
-#include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,8 +12,6 @@
 #include "sinew/identify/actuator/geometry.h"
 #include "sinew/identify/actuator/static.h"
 #include "sinew/identify/check/checkup.h"
-#include "sinew/identify/contest/evidence.h"
-#include "sinew/identify/contest/fit.h"
 #include "sinew/identify/joint/joint.h"
 #include "sinew/identify/machine/run_fit.h"
 #include "sinew/identify/motion/dynamic.h"
@@ -24,33 +19,22 @@
 #include "sinew/identify/plan/plan.h"
 #include "sinew/identify/sensor/force_beam.h"
 #include "sinew/identify/sensor/sensor.h"
+#include "sinew/identify/task/found.h"
 #include "sinew/identify/task/settings.fields.h"
 #include "sinew/identify/valve/valve.h"
 #include "sinew/units/shown.h"
 
 namespace sinew::identify {
 
-// --- geometry ---
+// --- results ---
 
-// Result, with the actuator's file.
-struct GeometryFound {
+struct GeometryFound : Found {
   actuator::Braid braid;
-  std::optional<Report> report;  // empty: the braid was counted
-  std::string file;              // actuator's file
 };
 
-// --- sensor ---
-
-// Result, from which the robot's file is written.
-struct SensorFound {
+struct SensorFound : Found {
   Calibration calibration;
   std::string display;  // original unit of the known values
-  CountScale converter;
-  bool average = false;
-  std::string base;
-
-  // Returns the robot's file as it would be written at `out`. Throws config::Error.
-  std::string file(const std::string& out) const;
 };
 
 // Return the scale for a sensitivity as in a robot's file, its uncertainty and its SI unit:
@@ -62,52 +46,21 @@ std::string scale_unit(const Calibration& c);
 // Returns that unit for known values in `display`: "V/lbf", "deg/V".
 std::string scale_unit_for(const Calibration& c, const std::string& display);
 
-// --- dynamic ---
-
-// Result, with the actuator's file.
-struct DynamicFound {
-  DynamicResult result;
-  std::string file;  // actuator's file, with its loss
-};
-
-// --- joint ---
-
-// Result, with the files of robot and actuator.
-struct JointFound {
-  JointResult result;
-  JointSetup setup;
-  JointNames names;
-  std::string base, source;
-  std::string actuator_file;  // with the identified effectiveness
-
-  // Returns the robot's file as it would be written at `out`. Throws config::Error.
-  std::string file(const std::string& out) const;
-};
-
-// --- pair ---
-
-// Result, with the robot's file.
-struct PairFound {
-  PairResult result;
-  std::string joint, base, source;
-
-  // Returns the robot's file as it would be written at `out`. Throws config::Error, and Refusal for
-  // a slide.
-  std::string file(const std::string& out) const;
-};
+using CreepFound = FoundBy<CreepResult>;      // without a file
+using DynamicFound = FoundBy<DynamicResult>;  // its file: the actuator's, with its loss
+using JointFound = FoundBy<JointResult>;      // its files: the robot's, and the actuator's
+using PairFound = FoundBy<PairResult>;        // its file: the robot's; refused for a slide
+using RunFitFound = FoundBy<RunFitResult>;    // its file: the robot's; further reports: scores
+using StaticFound = FoundBy<StaticResult>;    // its files: one of each muscle, the longest first
 
 // Returns whether the text is a range of times, "7 s..14 s", and not a file's name.
 bool is_time_range(std::string_view text);
 
-// --- valve ---
-
-// Result, from which the valves file is written.
-struct ValveFound {
-  ValveResult result;
-
-  // Returns the valves file; `out` is its name in a refusal. Throws Refusal for delays without a
-  // flow, which a simulation could not use, and for values that the data do not support.
-  std::string file(const std::string& out) const;
+// Its file is refused for delays without a flow, which a simulation could not use, and for values
+// that the data do not support.
+struct ValveFound : FoundBy<ValveResult> {
+  using FoundBy::FoundBy;
+  std::string frequency;  // of the pulses, as it was set; empty: 100 Hz
 };
 
 // predict.dat, with compensated valve delays.
@@ -117,20 +70,9 @@ struct TimingFile {
   double worst = 0;      // largest difference of delivered and commanded duty [-]
 };
 
-// Returns the timing. An empty `frequency` is 100 Hz. Throws Refusal if the delays are unknown.
-TimingFile timing_of(const ValveFound& found, const std::string& frequency);
-
-// --- static and check ---
-
-// Result, with the actuators' files.
-struct StaticFound {
-  StaticResult result;
-  std::vector<std::string> files;  // actuator's file of each muscle, the longest first
-
-  // Muscles with the rest lengths of the setting `predict`, and their files.
-  std::vector<StaticMuscle> predicted;
-  std::vector<std::string> predicted_files;
-};
+// Returns the timing; an empty `frequency` is the valve's. Throws Refusal if the delays are
+// unknown.
+TimingFile timing_of(const ValveFound& found, const std::string& frequency = "");
 
 // Returns the braid of the actuator in a file; empty if no file is named.
 std::optional<actuator::Braid> known_braid(const std::string& file_name);
@@ -139,44 +81,28 @@ std::optional<actuator::Braid> known_braid(const std::string& file_name);
 // Refusal.
 StaticData read_static(const std::vector<Source>& sources, const StaticSettings& settings);
 
-// --- scale ---
+// Fails if a check is red.
+struct CheckFound : Found {
+  Checkup checkup;
+};
 
 // A muscle scaled to another rest length.
-struct ScaleFound {
+struct ScaleFound : Found {
   actuator::Actuator actuator;
   double from = 0;          // rest length of the muscle in the file [m]
   double largest = 0;       // largest force within the lengths and pressures of the old one [N]
   double corrected_by = 1;  // factor of the law from the reading [-]
-  std::string doubt;        // doubt about the reading, in words; empty: none
-  std::string file;         // sinew.actuator/1
 };
 
-// --- run ---
-
-// Result, with the robot's file.
-struct RunFitFound {
-  RunFitResult result;
-  std::string base, source;
-  std::vector<Report> score = {};  // scores on a recording that was not fitted; empty: not scored
-
-  // Returns the robot's file as it would be written at `out`. Throws config::Error.
-  std::string file(const std::string& out) const;
-};
-
-// --- plan ---
-
-// A measurement plan, and the muscle that it is made for.
-struct PlanFound {
+// A measurement plan, and the muscle that it is made for. Its file is a table with a row for each
+// reading, in order, with an empty force column; filled in, it is input for `sinew identify
+// static`.
+struct PlanFound : Found {
   MeasurementPlan plan;
   ExpectedMuscle muscle;
   PlanOptions options;
-  std::string subject;             // "a muscle of 250 mm, 12 mm wide"
-  std::vector<std::string> notes;  // assumptions, in sentences
-  std::size_t measured = 0;        // existing readings
-
-  // Returns a table with a row for each reading, in order, with an empty force column; filled in,
-  // it is input for `sinew identify static`.
-  std::string file(const std::string& out) const;
+  std::string subject;       // "a muscle of 250 mm, 12 mm wide"
+  std::size_t measured = 0;  // existing readings
 };
 
 // Returns the three mounts that reduce the error most, with the errors expected before and after
@@ -244,80 +170,11 @@ JointFound find(const SourceList& sources, const JointSettings& settings);
 PairFound find(const SourceList& sources, const PairSettings& settings);
 ValveFound find(const SourceList& sources, const ValveSettings& settings);
 StaticFound find(const SourceList& sources, const StaticSettings& settings);
-CreepResult find(const SourceList& sources, const CreepSettings& settings);
-Checkup find(const SourceList& sources, const CheckSettings& settings);
+CreepFound find(const SourceList& sources, const CreepSettings& settings);
+CheckFound find(const SourceList& sources, const CheckSettings& settings);
 ScaleFound find(const SourceList& sources, const ScaleSettings& settings);
 RunFitFound find(const SourceList& sources, const RunFitSettings& settings);
 PlanFound find(const SourceList& sources, const PlanSettings& settings,
                double atmosphere = units::atmosphere);
-
-// Return the output of `--json`: the report and further results, in SI with the unit in the key;
-// null if unknown.
-Json to_json(const GeometryFound& found);
-Json to_json(const SensorFound& found);
-Json to_json(const DynamicFound& found);
-Json to_json(const JointFound& found);
-Json to_json(const PairFound& found);
-Json to_json(const ValveFound& found);
-Json to_json(const StaticFound& found);
-Json to_json(const CreepResult& found);
-Json to_json(const ScaleFound& found);
-Json to_json(const RunFitFound& found);
-Json to_json(const PlanFound& found);
-
-// Return the reports of a result for its page, the method's own first. Empty if the result has no
-// law, such as a counted braid.
-using Reports = std::vector<const Report*>;
-Reports reports_of(const GeometryFound& found);
-Reports reports_of(const SensorFound& found);
-Reports reports_of(const PairFound& found);
-Reports reports_of(const RunFitFound& found);
-inline Reports reports_of(const CreepResult& found) { return {&found.report}; }
-inline Reports reports_of(const Checkup&) { return {}; }
-inline Reports reports_of(const ScaleFound&) { return {}; }
-inline Reports reports_of(const PlanFound&) { return {}; }
-template <class Found>
-Reports reports_of(const Found& found) {
-  return {&found.result.report};
-}
-
-// Returns the title of a method's page; empty: that of its first report.
-template <class Found>
-std::string title_of(const Found& found) {
-  if constexpr (requires { found.calibration; })
-    return "calibration of sensors from " + found.calibration.file;
-  else
-    return "";
-}
-
-// Returns why there is a report but no file; empty: a file is possible.
-template <class Found>
-std::string refused(const Found& found) {
-  if constexpr (requires { found.result.refused; })
-    return found.result.refused;
-  else
-    return "";
-}
-
-// Returns functions for the texts of the parameter files, each as it would be written at `out`, the
-// method's own first. They throw config::Error or Refusal if the file is not possible.
-using FileText = std::function<std::string(const std::string& out)>;
-template <class Found>
-std::vector<FileText> files_of(const std::shared_ptr<const Found>& found) {
-  std::vector<FileText> out;
-  const auto add = [&](const std::string& text) {
-    out.emplace_back([found, &text](const std::string&) { return text; });
-  };
-  if constexpr (requires { found->file(""); })
-    out.emplace_back([found](const std::string& at) { return found->file(at); });
-  else if constexpr (requires { found->file; })
-    add(found->file);
-  if constexpr (requires { found->actuator_file; }) add(found->actuator_file);
-  if constexpr (requires { found->predicted_files; }) {
-    for (const std::string& text : found->files) add(text);
-    for (const std::string& text : found->predicted_files) add(text);
-  }
-  return out;
-}
 
 }  // namespace sinew::identify

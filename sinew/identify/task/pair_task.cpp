@@ -23,12 +23,12 @@
 #include "sinew/identify/pair/pair.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
+#include "sinew/report/text/text_table.h"
+#include "sinew/units/shown.h"
 
 namespace sinew::identify {
 
 namespace {
-
-// --- the identified pair as JSON and as a part of a robot ---
 
 // Losses of a joint in a robot's file.
 struct JointLosses {
@@ -36,43 +36,19 @@ struct JointLosses {
   double damping = std::numeric_limits<double>::quiet_NaN(), dry_friction = damping;
 };
 
-// Returns stiffness, sensors and trapped air, in SI with the unit in the key.
-Json describe(const PairResult& found) {
-  const bool rotary = found.rotary;
-  const std::string per = rotary ? "_Nm_per_rad" : "_N_per_m", effort = rotary ? "_Nm" : "_N";
-  Json out;
-  out["stiffness" + per] = found.stiffness.value;
-  out["stiffness_uncertainty" + per] = found.stiffness.uncertainty;
-  out["stiffness_of_air" + per] = finite_or_null(found.stiffness.air);
-  for (const PairSensorsOf& s : found.sensors)
-    out["recordings"].push_back({{"file", s.file},
-                                 {"rig", s.rig},
-                                 {"bias" + effort, s.sensors.bias},
-                                 {"gain", s.sensors.gain},
-                                 {"delay_s", s.sensors.delay}});
-  if (!found.air) return out;
-  Json air{
-      {"change_per_position_Pa_per_" + std::string(rotary ? "rad" : "m"), found.air->per_position}};
-  for (std::size_t m = 0; m < found.air->slope.size(); ++m)
-    air["muscles"].push_back(
-        {{"pressure_Pa_abs", found.air->pressure[m]},
-         {rotary ? "relative_change_1_per_rad" : "relative_change_1_per_m", found.air->slope[m]},
-         {"falls", static_cast<bool>(found.air->falls[m])}});
-  air["report"] = to_json(found.air->report);
-  out["air"] = air;
-  return out;
-}
-
-// Returns `robot` with damping and dry friction of the named joint, whose pair was measured. A
-// loss that the law does not have is left out. Throws Refusal for a slide, which is not a joint.
-std::string pair_file(const PairResult& found, const std::string& joint, const std::string& source,
-                      config::Node robot) {
+// Returns a robot's file with damping and dry friction of the named joint, whose pair was measured.
+// A loss that the law does not have is left out. The file of a slide, which is not a joint, is
+// refused.
+ParameterFile file_of(const PairResult& found, const std::string& joint, const std::string& source,
+                      const std::string& base) {
   if (!found.rotary)
-    throw Refusal("out", "a slide",
-                  "torque and angle of a joint: in a robot's file muscles move joints, and these "
-                  "alone have dry_friction and damping. Of a slide N/m and N s/m have no place "
-                  "there, as long as no lever turns them into N m",
-                  "no file: the report and its JSON have all values");
+    return {[](const std::string&) -> std::string {
+      throw Refusal("out", "a slide",
+                    "torque and angle of a joint: in a robot's file muscles move joints, and these "
+                    "alone have dry_friction and damping. Of a slide N/m and N s/m have no place "
+                    "there, as long as no lever turns them into N m",
+                    "no file: the report and its JSON have all values");
+    }};
   Provenance provenance;
   std::vector<JointLosses> joints{{.name = joint}};
   const std::string path = "joint." + joint + ".";
@@ -88,8 +64,7 @@ std::string pair_file(const PairResult& found, const std::string& joint, const s
     v.number({.name = "dry_friction", .unit = "N m"}, j.dry_friction);
     v.number({.name = "damping", .unit = "N m s/rad"}, j.damping);
   });
-  for (const config::Node& child : writer.root().children) robot.put(child);
-  return config::to_toml(robot);
+  return part_of_robot(writer.root(), base);
 }
 
 // Returns both ends of a range such as "7 s..14 s"; one may be open.
@@ -138,6 +113,78 @@ std::vector<PairRecord> records_of(std::vector<Source> sources, const PairSettin
   return out;
 }
 
+// Prints the share of the variance that each law explains, and its scores on the held-out rows.
+void put_explained(std::string& out, const Report& report) {
+  using enum report::TextTable::Align;
+  report::TextTable table({"model", "R2", "held out", "nrmse", "r"},
+                          {left, right, right, right, right});
+  for (const Fit& f : report.fits) {
+    if (!f.refused.empty()) continue;
+    const Score unseen = f.held_out.value_or(Score{});
+    table.add({f.model, fmt::format("{:.4f}", f.fit.explained), digits(unseen.explained, "{:.4f}"),
+               digits(unseen.nrmse, "{:.4f}"), digits(unseen.correlation, "{:.4f}")});
+  }
+  put(out, "\n{}", table.text());
+}
+
+void put_stiffness(std::string& out, const PairResult& found, const config::UnitsToShow& chosen) {
+  const char* unit = found.rotary ? "N m/rad" : "N/m";
+  const units::ShownUnit shown = chosen.units.of(unit);
+  const PairStiffness& s = found.stiffness;
+  put(out, "\nstiffness, springs and trapped air together: {:.5g} +- {:.2g} {}", shown.of(s.value),
+      shown.of(s.uncertainty), shown.name);
+  if (std::isfinite(s.air)) put(out, ", {:.4g} {} by the air", shown.of(s.air), shown.name);
+  put(out, "\n");
+}
+
+// Law and parameters of the trapped air.
+void put_air(std::string& out, const PairResult& found) {
+  if (!found.air) return;
+  const PairAir& air = *found.air;
+  const Fit& best = air.report.best();
+  put(out, "\ntrapped air, {}: {}; {:.2f} % of {}\n", best.model, best.law, best.fit.rmse_percent,
+      air.report.full_scale_is);
+  using enum report::TextTable::Align;
+  report::TextTable table({"parameter", "value", "unit", "95 %"}, {left, right, left, left});
+  for (const Estimate& e : best.parameters)
+    table.add({e.name, fmt::format("{:.6g}", e.value), e.unit,
+               !e.free                  ? e.known
+               : e.at_bound             ? "at the bound of its range"
+               : !std::isfinite(e.high) ? "not identifiable"
+                                        : fmt::format("+- {:.2g}", 0.5 * (e.high - e.low))});
+  put(out, "{}", table.text());
+}
+
+void put_pair(const PairFound& found, const TextOptions& how, std::string& out) {
+  put_explained(out, found.result.report);
+  put_stiffness(out, found.result, how.units);
+  put_air(out, found.result);
+}
+
+void add_json(const PairResult& result, Json& out) {
+  const bool rotary = result.rotary;
+  const std::string per = rotary ? "_Nm_per_rad" : "_N_per_m", effort = rotary ? "_Nm" : "_N";
+  out["stiffness" + per] = result.stiffness.value;
+  out["stiffness_uncertainty" + per] = result.stiffness.uncertainty;
+  out["stiffness_of_air" + per] = finite_or_null(result.stiffness.air);
+  for (const PairSensorsOf& s : result.sensors)
+    out["recordings"].push_back({{"file", s.file},
+                                 {"rig", s.rig},
+                                 {"bias" + effort, s.sensors.bias},
+                                 {"gain", s.sensors.gain},
+                                 {"delay_s", s.sensors.delay}});
+  if (!result.air) return;
+  Json air{{"change_per_position_Pa_per_" + std::string(rotary ? "rad" : "m"),
+            result.air->per_position}};
+  for (std::size_t m = 0; m < result.air->slope.size(); ++m)
+    air["muscles"].push_back(
+        {{"pressure_Pa_abs", result.air->pressure[m]},
+         {rotary ? "relative_change_1_per_rad" : "relative_change_1_per_m", result.air->slope[m]},
+         {"falls", static_cast<bool>(result.air->falls[m])}});
+  air["report"] = to_json(result.air->report);
+  out["air"] = air;
+}
+
 }  // namespace
 
 bool is_time_range(std::string_view text) {
@@ -167,26 +214,13 @@ PairFound find(const SourceList& sources, const PairSettings& settings) {
     }
   }
   if (!times.empty()) std::tie(options.held_out_from, options.held_out_to) = times_of(times);
-  PairFound out{.result = identify_pair(records_of(sources, settings, others), options),
-                .joint = settings.joint,
-                .base = settings.base};
-  out.source = source_words("pair", sources, out.result.report.best().model);
-  return out;
-}
-
-std::string PairFound::file(const std::string& out) const {
-  return pair_file(result, joint, source, robot_over(base, out));
-}
-
-Json to_json(const PairFound& found) {
-  Json out = to_json(found.result.report);
-  out.update(describe(found.result));
-  return out;
-}
-
-Reports reports_of(const PairFound& found) {
-  Reports out{&found.result.report};
-  if (found.result.air) out.push_back(&found.result.air->report);
+  PairFound out(identify_pair(records_of(sources, settings, others), options));
+  out.files = {file_of(out.result, settings.joint,
+                       source_words("pair", sources, out.result.report.best().model),
+                       settings.base)};
+  if (out.result.air) out.reports.push_back(out.result.air->report);
+  add_json(out.result, out.json);
+  prints(out, put_pair);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/json/json.h"
+#include "sinew/report/text/text_table.h"
 
 namespace sinew::identify {
 
@@ -81,14 +83,144 @@ class PlanReader {
 
 void add_assumptions(PlanFound& out) {
   const double full = out.muscle.scales.full_scale;
-  out.notes.push_back(fmt::format(
+  out.remarks.notes.push_back(fmt::format(
       "The largest force is taken for {:.0f} N; the noise of a reading for {:.3g} N, the error of "
       "a mount's length for {:.2g} mm.",
       full, out.options.noise, 1e3 * out.options.length_error));
-  out.notes.push_back(fmt::format(
+  out.remarks.notes.push_back(fmt::format(
       "The law itself is taken to be off by {:.2g} % wherever it was not measured; that "
       "is in every error, and no measurement lowers it.",
       100 * out.options.law_error));
+}
+
+// Returns a table with a row for each reading, in order, with an empty column of forces.
+std::string table_of(const PlanFound& found) {
+  const MeasurementPlan& plan = found.plan;
+  std::string out = fmt::format(
+      "# Plan of `sinew identify plan`: {} mounts, {} readings, {:.0f} minutes, for {}.\n"
+      "# Expected afterwards: {:.2g} % of the largest force, root mean square.\n"
+      "# Fill in force [N], and the lengths and pressures that you really had; leave out what you "
+      "did not measure.\n"
+      "length [mm],pressure [kPa gauge],force [N],branch,rest_length [mm]\n",
+      plan.mounts.size(), plan.readings(), plan.time() / 60, found.subject, 100 * plan.after().rms);
+  const auto row = [&](double length, double pressure, const char* branch) {
+    out += fmt::format("{:.6g},{:.6g},,{},{:.6g}\n", 1e3 * length, 1e-3 * pressure, branch,
+                       1e3 * found.muscle.scales.rest_length);
+  };
+  for (const PlannedMount& m : plan.mounts) {
+    for (const double p : m.pressures) row(m.length, p, "fill");
+    for (auto p = m.pressures.rbegin() + 1; p < m.pressures.rend(); ++p) row(m.length, *p, "vent");
+  }
+  return out;
+}
+
+// Above 100 % nothing is known, and the number has no meaning.
+std::string percent_or_more(double share) {
+  return share > 1 ? "> 100 %" : fmt::format("{:.2g} %", 100 * share);
+}
+
+// Numbers in the units that were chosen; else in those of a ruler and a regulator.
+struct PlanUnits {
+  const TextOptions& how;
+
+  TextOptions::Shown of(double si, const std::string& unit,
+                        const TextOptions::Shown& otherwise) const {
+    return how.units.is_requested ? how.shown(si, unit) : otherwise;
+  }
+  TextOptions::Shown length(double x) const { return of(x, "m", {1e3 * x, "mm", 1e3}); }
+  TextOptions::Shown pressure(double x) const {
+    return of(x, "Pa gauge", {1e-3 * x, "kPa gauge", 1e-3});
+  }
+  TextOptions::Shown force(double x) const { return of(x, "N", {x, "N", 1}); }
+};
+
+std::string text_of(const TextOptions::Shown& r) {
+  return fmt::format("{:.4g} {}", r.number, r.unit);
+}
+
+std::string numbers_of(const std::vector<double>& pressures, const PlanUnits& units) {
+  std::vector<double> out;
+  for (const double p : pressures) out.push_back(units.pressure(p).number);
+  return fmt::format("{:.4g}", fmt::join(out, " "));
+}
+
+void put_mounts(std::string& out, const PlanFound& found, const PlanUnits& units) {
+  using enum report::TextTable::Align;
+  const std::string over = fmt::format("up and down over [{}]", units.pressure(0).unit);
+  report::TextTable table(
+      {"mount", "length", over, "readings", "minutes", "error rms", "95 % at worst"},
+      {right, right, left, right, right, right, right});
+  const MeasurementPlan& plan = found.plan;
+  table.add({found.measured > 0 ? "before" : "none", "", "", std::to_string(found.measured), "0",
+             percent_or_more(plan.before.rms), percent_or_more(plan.before.half_width)});
+  double time = 0;
+  for (std::size_t i = 0; i < plan.mounts.size(); ++i) {
+    const PlannedMount& m = plan.mounts[i];
+    time += m.time;
+    table.add({std::to_string(i + 1), text_of(units.length(m.length)),
+               numbers_of(m.pressures, units), std::to_string(m.readings()),
+               fmt::format("{:.0f}", time / 60), percent_or_more(m.after.rms),
+               percent_or_more(m.after.half_width)});
+  }
+  put(out, "{}", table.text());
+}
+
+void put_plan(const PlanFound& found, const TextOptions& how, std::string& out) {
+  const PlanUnits units{how};
+  const MeasurementPlan& plan = found.plan;
+  const PlanRegion& r = plan.region;
+  const bool worst = found.options.criterion == PlanCriterion::worst;
+  put(out, "plan for {}\n", found.subject);
+  put(out, "errors of the force in % of the largest, {}, over {:.4g} to {} and {:.4g} to {}\n\n",
+      text_of(units.force(found.muscle.scales.full_scale)), units.length(r.shortest).number,
+      text_of(units.length(r.longest)), units.pressure(r.lowest).number,
+      text_of(units.pressure(r.highest)));
+  put_mounts(out, found, units);
+  if (plan.mounts.empty()) {
+    put(out, "\nnothing more to measure: {} was wanted\n", percent_or_more(found.options.error));
+    return;
+  }
+  const double after = plan.after().of(found.options.criterion);
+  const double before = plan.before.of(found.options.criterion);
+  put(out, "\n{} {} and {} readings in {:.0f} minutes: {}{} ({} wanted{}{})\n", plan.mounts.size(),
+      plan.mounts.size() == 1 ? "mount" : "mounts", plan.readings(), plan.time() / 60,
+      found.measured > 0 ? fmt::format("{} -> ", percent_or_more(before)) : "",
+      percent_or_more(after), percent_or_more(found.options.error),
+      worst ? ", 95 % at the worst place" : ", rms", plan.reached ? "" : "; not reached");
+}
+
+Json json_of_error(const PlanError& error) {
+  return {{"rms_percent", 100 * error.rms}, {"half_width_95_percent", 100 * error.half_width}};
+}
+
+Json json_of(const PlanFound& found) {
+  const MeasurementPlan& plan = found.plan;
+  Json out{{"format", "sinew.plan/1"},
+           {"for", found.subject},
+           {"largest_force_N", found.muscle.scales.full_scale},
+           {"rest_length_m", found.muscle.scales.rest_length},
+           {"noise_N", found.options.noise},
+           {"law_error_percent", 100 * found.options.law_error},
+           {"wanted_percent", 100 * found.options.error},
+           {"measured_readings", found.measured}};
+  out["region"] = {{"shortest_m", plan.region.shortest},
+                   {"longest_m", plan.region.longest},
+                   {"lowest_Pa", plan.region.lowest},
+                   {"highest_Pa", plan.region.highest}};
+  out["before"] = json_of_error(plan.before);
+  out["mounts"] = Json::array();
+  for (const PlannedMount& m : plan.mounts)
+    out["mounts"].push_back({{"length_m", m.length},
+                             {"gauge_pressures_Pa", m.pressures},
+                             {"readings", m.readings()},
+                             {"time_s", m.time},
+                             {"after", json_of_error(m.after)}});
+  out["after"] = json_of_error(plan.after());
+  out["reached"] = plan.reached;
+  out["readings"] = plan.readings();
+  out["time_s"] = plan.time();
+  out["notes"] = found.remarks.notes;
+  return out;
 }
 
 PlanFound planned(PlanFound out, const PlanReader& read, std::span<const MeasuredMount> measured) {
@@ -96,10 +228,13 @@ PlanFound planned(PlanFound out, const PlanReader& read, std::span<const Measure
   add_assumptions(out);
   out.plan = plan_measurements(out.muscle, region, out.options, measured);
   if (!out.plan.reached)
-    out.notes.push_back(fmt::format(
+    out.remarks.notes.push_back(fmt::format(
         "{} mounts do not reach it: less noise, a better known length of each mount, or more of "
         "them would.",
         out.plan.mounts.size()));
+  out.files = {file_with(table_of(out))};
+  out.json = json_of(out);
+  prints(out, put_plan);
   return out;
 }
 
@@ -115,18 +250,14 @@ void give_longest(std::vector<StaticPoint>& points, std::vector<std::string>& no
       fmt::format("No rest length given: the longest, {:.4g} mm, is taken for it.", 1e3 * longest));
 }
 
-Json json_of_error(const PlanError& error) {
-  return {{"rms_percent", 100 * error.rms}, {"half_width_95_percent", 100 * error.half_width}};
-}
-
 // The target is just above the law's own error, so that mounts are added as long as possible.
 constexpr double wanted = 1.05;  // times the error of the law
-constexpr int mounts = 3;
+constexpr int most_mounts = 3;
 
 Further further_of(const std::vector<StaticPoint>& points, double atmosphere,
                    const std::optional<actuator::Braid>& braid) {
   const FittedMuscle fitted = muscle_by_points(points, atmosphere, braid);
-  PlanOptions options{.noise = fitted.scatter, .most = mounts};
+  PlanOptions options{.noise = fitted.scatter, .most = most_mounts};
   options.error = wanted * options.law_error;
   const MeasurementPlan plan =
       plan_measurements(fitted.muscle, region_of(fitted.muscle), options, mounts_of(points));
@@ -158,7 +289,8 @@ Further further_of(const std::vector<StaticPoint>& points, double atmosphere,
 // Makes a plan for a muscle without measurements.
 PlanFound first_plan(const PlanSettings& settings, double atmosphere) {
   const PlanReader read(settings, atmosphere);
-  PlanFound out{.options = read.options("2 N")};
+  PlanFound out;
+  out.options = read.options("2 N");
   const double pressure =
       read.needed("pressure", settings.pressure, "the highest one that will be measured");
   if (settings.actuator.empty()) {
@@ -191,8 +323,10 @@ PlanFound next_plan(const std::vector<Source>& sources, const PlanSettings& sett
                                           .branch = settings.branch});
   const double atmosphere = sources[0].atmosphere;
   const PlanReader read(settings, atmosphere);
-  PlanFound out{.options = read.options(""), .measured = data.points.size()};
-  give_longest(data.points, out.notes);
+  PlanFound out;
+  out.options = read.options("");
+  out.measured = data.points.size();
+  give_longest(data.points, out.remarks.notes);
   FittedMuscle fitted = muscle_by_points(data.points, atmosphere, known_braid(settings.actuator));
   double& top = fitted.muscle.scales.top_pressure;
   top = read.values().given(settings.pressure).value_or(top);
@@ -207,56 +341,6 @@ PlanFound next_plan(const std::vector<Source>& sources, const PlanSettings& sett
 
 PlanFound find(const SourceList& sources, const PlanSettings& settings, double atmosphere) {
   return sources.empty() ? first_plan(settings, atmosphere) : next_plan(sources, settings);
-}
-
-std::string PlanFound::file(const std::string&) const {
-  const PlanError after = plan.after();
-  std::string out = fmt::format(
-      "# Plan of `sinew identify plan`: {} mounts, {} readings, {:.0f} minutes, for {}.\n"
-      "# Expected afterwards: {:.2g} % of the largest force, root mean square.\n"
-      "# Fill in force [N], and the lengths and pressures that you really had; leave out what you "
-      "did not measure.\n"
-      "length [mm],pressure [kPa gauge],force [N],branch,rest_length [mm]\n",
-      plan.mounts.size(), plan.readings(), plan.time() / 60, subject, 100 * after.rms);
-  const auto row = [&](double length, double pressure, const char* branch) {
-    out += fmt::format("{:.6g},{:.6g},,{},{:.6g}\n", 1e3 * length, 1e-3 * pressure, branch,
-                       1e3 * muscle.scales.rest_length);
-  };
-  for (const PlannedMount& m : plan.mounts) {
-    for (const double p : m.pressures) row(m.length, p, "fill");
-    for (auto p = m.pressures.rbegin() + 1; p < m.pressures.rend(); ++p) row(m.length, *p, "vent");
-  }
-  return out;
-}
-
-Json to_json(const PlanFound& found) {
-  const MeasurementPlan& plan = found.plan;
-  Json out{{"format", "sinew.plan/1"},
-           {"for", found.subject},
-           {"largest_force_N", found.muscle.scales.full_scale},
-           {"rest_length_m", found.muscle.scales.rest_length},
-           {"noise_N", found.options.noise},
-           {"law_error_percent", 100 * found.options.law_error},
-           {"wanted_percent", 100 * found.options.error},
-           {"measured_readings", found.measured}};
-  out["region"] = {{"shortest_m", plan.region.shortest},
-                   {"longest_m", plan.region.longest},
-                   {"lowest_Pa", plan.region.lowest},
-                   {"highest_Pa", plan.region.highest}};
-  out["before"] = json_of_error(plan.before);
-  out["mounts"] = Json::array();
-  for (const PlannedMount& m : plan.mounts)
-    out["mounts"].push_back({{"length_m", m.length},
-                             {"gauge_pressures_Pa", m.pressures},
-                             {"readings", m.readings()},
-                             {"time_s", m.time},
-                             {"after", json_of_error(m.after)}});
-  out["after"] = json_of_error(plan.after());
-  out["reached"] = plan.reached;
-  out["readings"] = plan.readings();
-  out["time_s"] = plan.time();
-  out["notes"] = found.notes;
-  return out;
 }
 
 std::vector<Further> further_measurements(const StaticResult& result, double atmosphere,

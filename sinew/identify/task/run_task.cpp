@@ -19,8 +19,10 @@
 #include "sinew/identify/machine/run_score.h"
 #include "sinew/json/json.h"
 #include "sinew/log/reader.h"
+#include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/setup/buildable.h"
+#include "sinew/units/shown.h"
 
 namespace sinew::identify {
 
@@ -115,17 +117,6 @@ std::vector<std::string> all_sets(const RunFitSettings& settings) {
   return out;
 }
 
-}  // namespace
-
-std::string RunFitFound::file(const std::string& out) const {
-  if (result.keys.empty())
-    throw Refusal("the run", "that it was held out whole, so that nothing was identified",
-                  "a part that is fitted, for a file", "no file, or to hold out less");
-  return run_file(result, source, robot_over(base, out));
-}
-
-namespace {
-
 experiment::Experiment sound_machine(const config::Node& root, const std::string& file) {
   experiment::Experiment out = run::buildable_robot(root, file);
   if (!out.faults.empty())
@@ -171,14 +162,14 @@ struct RecordedMachine {
 };
 
 // Scores the result on another recording.
-void score_on(const RecordedMachine& other, double from, RunFitFound& out) {
+std::vector<Report> score_on(const RecordedMachine& other, double from, RunFitResult& out) {
   std::vector<std::string> differing;
   const experiment::Experiment machine =
-      scored_machine(out.result.machine, other.machine, out.result.keys, other.name, differing);
-  out.score = score_run(machine, other.driven, from, other.name);
-  Report& report = out.result.report;
+      scored_machine(out.machine, other.machine, out.keys, other.name, differing);
+  const std::vector<Report> score = score_run(machine, other.driven, from, other.name);
+  Report& report = out.report;
   other.warn("score", report);
-  if (differing.empty()) return;
+  if (differing.empty()) return score;
   constexpr std::size_t shown = 3;
   const std::size_t more = differing.size() > shown ? differing.size() - shown : 0;
   differing.resize(differing.size() - more);
@@ -186,6 +177,49 @@ void score_on(const RecordedMachine& other, double from, RunFitFound& out) {
       "{} has other values of {}{}, which were not fitted; the score is of the machine without "
       "them",
       other.name, fmt::join(differing, ", "), more > 0 ? fmt::format(" and {} more", more) : ""));
+  return score;
+}
+
+// Prints the scores on a recording that was not fitted.
+void put_score(const RunFitFound& found, const TextOptions& how, std::string& out) {
+  using enum report::TextTable::Align;
+  const std::span score = std::span(found.reports).subspan(1);
+  if (score.empty()) return;
+  const config::UnitsToShow chosen = how.units;
+  // Without a choice, the units of a protractor and a gauge.
+  const auto shown = [&](const std::string& unit) {
+    if (chosen.is_requested) return chosen.units.of(unit);
+    if (unit == "Pa diff") return units::ShownUnit{"kPa", 1e-3};
+    if (unit == "m") return units::ShownUnit{"mm", 1e3};
+    if (unit == "N") return units::ShownUnit{"N", 1};
+    return units::ShownUnit{unit == "rad" ? "deg" : "deg/s", 180 / std::numbers::pi};
+  };
+  report::TextTable table({"score", "", "rms", "", "nrmse", "r", "R2"},
+                          {left, left, right, left, right, right, right});
+  for (const Report& part : score) {
+    const units::ShownUnit unit = shown(part.unit);
+    const auto add = [&](const std::string& name, const Score& s) {
+      table.add({part.quantity, name, fmt::format("{:.4g}", unit.of(s.rmse)), unit.name,
+                 digits(s.nrmse, "{:.4f}"), digits(s.correlation, "{:.5f}"),
+                 digits(s.explained, "{:.5f}")});
+    };
+    const auto& parts = part.errors[0].parts;
+    for (const PartError& one : parts) add(one.name, one.score);
+    if (parts.size() > 1) add(fmt::format("all {}", parts.size()), *part.best().held_out);
+  }
+  put(out, "\nopen loop, by the valve commands alone: {}\n{}", score[0].held_out_is, table.text());
+}
+
+void add_json(const RunFitResult& result, std::span<const Report> score, Json& out) {
+  out.update(describe(result));
+  for (const Report& part : score) {
+    const Json all = to_json(part);
+    out["score"].push_back({{"quantity", part.quantity},
+                            {"unit", part.unit},
+                            {"of", part.held_out_is},
+                            {"all", all["held_out"]},
+                            {"parts", all["errors"][0]["parts"]}});
+  }
 }
 
 }  // namespace
@@ -215,33 +249,24 @@ RunFitFound find(const SourceList&, const RunFitSettings& settings) {
           fmt::format("a time within {} of {:.4g} s", other->name, other->driven.duration()),
           "\"0 s\"");
   }
-  RunFitFound out{fit_run(run.machine, run.driven, options), settings.base,
-                  "identified from " + settings.run};
-  run.warn("fit", out.result.report);
+  RunFitResult result = fit_run(run.machine, run.driven, options);
+  run.warn("fit", result.report);
+  std::vector<Report> score;
   if (other)
-    score_on(*other, options.from, out);
+    score = score_on(*other, options.from, result);
   else if (options.hold_out == 1)
-    out.score = score_run(out.result.machine, run.driven, options.from, settings.run);
-  return out;
-}
-
-Reports reports_of(const RunFitFound& found) {
-  Reports out{&found.result.report};
-  for (const Report& part : found.score) out.push_back(&part);
-  return out;
-}
-
-Json to_json(const RunFitFound& found) {
-  Json out = to_json(found.result.report);
-  out.update(describe(found.result));
-  for (const Report& part : found.score) {
-    const Json all = to_json(part);
-    out["score"].push_back({{"quantity", part.quantity},
-                            {"unit", part.unit},
-                            {"of", part.held_out_is},
-                            {"all", all["held_out"]},
-                            {"parts", all["errors"][0]["parts"]}});
-  }
+    score = score_run(result.machine, run.driven, options.from, settings.run);
+  RunFitFound out(std::move(result));
+  out.reports.insert(out.reports.end(), score.begin(), score.end());
+  add_json(out.result, score, out.json);
+  prints(out, put_score);
+  out.files = {{[found = out.result, base = settings.base,
+                 source = "identified from " + settings.run](const std::string& at) {
+    if (found.keys.empty())
+      throw Refusal("the run", "that it was held out whole, so that nothing was identified",
+                    "a part that is fitted, for a file", "no file, or to hold out less");
+    return run_file(found, source, robot_over(base, at));
+  }}};
   return out;
 }
 

@@ -56,37 +56,23 @@ std::string file_of(const ScaleFound& found, const ScaleSettings& s) {
   return actuator_file(without_idle_digits(found.actuator), provenance);
 }
 
-}  // namespace
-
-ScaleFound find(const SourceList&, const ScaleSettings& s) {
-  const double atmosphere = atmosphere_setting(s.atmosphere);
-  const auto file = experiment::load_machine_file(s.file);
-  const actuator::Actuator old =
-      config::named(file.experiment.actuators, s.actuator, "actuator", "actuator");
-  const double rest_length = SettingValues(s, atmosphere).of(s.rest_length);
-  ScaleFound out{.actuator = with_rest_length(old, rest_length, atmosphere),
-                 .from = old.prediction.rest_length,
-                 .file = {}};
-  if (!s.reading.empty()) {
-    const ReadingFactor factor =
-        reading_factor(out.actuator, reading_of(s.reading, atmosphere), atmosphere);
-    out.corrected_by = factor.law;
-    if (std::abs(factor.law - 1) > most_likely)
-      out.doubt = fmt::format(
-          "the law is multiplied by {:.3f} for this reading, and muscles of one make differ by 2 % "
-          "or so: check its length, pressure and force",
-          factor.law);
-    out.actuator =
-        scale_force(with_rest_length(old, rest_length, atmosphere, factor.share), factor.law);
-  }
-  if (!s.name.empty()) out.actuator.name = s.name;
-  const actuator::Prediction& p = out.actuator.prediction;
-  out.largest = actuator::tension(out.actuator, p.lengths.back(), 0, p.highest, atmosphere);
-  out.file = file_of(out, s);
-  return out;
+void put_scaled(const ScaleFound& found, const TextOptions&, std::string& out) {
+  const actuator::Prediction& p = found.actuator.prediction;
+  put(out, "a muscle of {:.4g} mm, like that of {:.4g} mm\n", 1e3 * p.rest_length,
+      1e3 * found.from);
+  put(out, "largest force  {:.4g} N at {:.4g} mm and {:.4g} kPa gauge\n", found.largest,
+      1e3 * p.lengths.back(), 1e-3 * p.highest);
+  if (found.corrected_by != 1)
+    put(out, "its reading    the law times {:.4f}\n", found.corrected_by);
+  else
+    put(out, "one reading    reading=\"{:.4g} mm, {:.4g} kPa gauge, FORCE\" corrects it most\n",
+        1e3 * p.lengths.back(), 1e-3 * p.highest);
+  if (p.inside_95 > 0)
+    put(out, "68 % within    {:.3g} N\n95 % within    {:.3g} N of the law\n",
+        actuator::widest_inside_68(p), actuator::widest_inside_95(p));
 }
 
-Json to_json(const ScaleFound& found) {
+Json json_of(const ScaleFound& found) {
   const actuator::Prediction& p = found.actuator.prediction;
   Json out{{"format", "sinew.scaled/1"},
            {"rest_length_m", p.rest_length},
@@ -95,9 +81,45 @@ Json to_json(const ScaleFound& found) {
            {"corrected_by", found.corrected_by},
            {"read_at", {{"length_m", p.lengths.back()}, {"gauge_pressure_Pa", p.highest}}}};
   const double half_68 = actuator::widest_inside_68(p), half_95 = actuator::widest_inside_95(p);
-  if (!found.doubt.empty()) out["warnings"] = {found.doubt};
+  if (!found.remarks.warnings.empty()) out["warnings"] = found.remarks.warnings;
   out["half_68_N"] = half_68 > 0 ? Json(half_68) : Json();
   out["half_95_N"] = half_95 > 0 ? Json(half_95) : Json();
+  return out;
+}
+
+}  // namespace
+
+ScaleFound find(const SourceList&, const ScaleSettings& s) {
+  const double atmosphere = atmosphere_setting(s.atmosphere);
+  const auto file = experiment::load_machine_file(s.file);
+  const actuator::Actuator old =
+      config::named(file.experiment.actuators, s.actuator, "actuator", "actuator");
+  const double rest_length = SettingValues(s, atmosphere).of(s.rest_length);
+  ScaleFound out;
+  out.actuator = with_rest_length(old, rest_length, atmosphere);
+  out.from = old.prediction.rest_length;
+  if (!s.reading.empty()) {
+    const ReadingFactor factor =
+        reading_factor(out.actuator, reading_of(s.reading, atmosphere), atmosphere);
+    out.corrected_by = factor.law;
+    if (std::abs(factor.law - 1) > most_likely)
+      out.remarks.warnings.push_back(fmt::format(
+          "the law is multiplied by {:.3f} for this reading, and muscles of one make differ by 2 % "
+          "or so: check its length, pressure and force",
+          factor.law));
+    out.actuator =
+        scale_force(with_rest_length(old, rest_length, atmosphere, factor.share), factor.law);
+  }
+  if (!s.name.empty()) out.actuator.name = s.name;
+  const actuator::Prediction& p = out.actuator.prediction;
+  out.largest = actuator::tension(out.actuator, p.lengths.back(), 0, p.highest, atmosphere);
+  out.files = {file_with(file_of(out, s))};
+  out.json = json_of(out);
+  if (!(p.inside_95 > 0))
+    out.remarks.warnings.emplace_back(
+        "how far off it is is unknown: no muscle was left out when the file was made; fit "
+        "muscles of two rest lengths at least");
+  prints(out, put_scaled);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
@@ -14,7 +15,9 @@
 #include "sinew/identify/contest/provenance.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
+#include "sinew/report/text/text_table.h"
 #include "sinew/robot/sensor.fields.h"
+#include "sinew/units/unit.h"
 
 namespace sinew::identify {
 
@@ -111,10 +114,9 @@ Json describe(const Calibration& c, const SensorResult& r) {
           {"deviation_percent", 100 * r.deviation}};
 }
 
-// Returns the text of a robot's file: `robot`, its beginning, with the sensors. `average`: the
-// controller assumes one scale for all sensors, as in the thesis.
-std::string sensor_file(const Calibration& c, const CountScale& converter, bool average,
-                        config::Node robot) {
+// Returns the tables of the sensors in a robot's file. `average`: the controller assumes one scale
+// for all sensors, as in the thesis.
+config::Node tables_of(const Calibration& c, const CountScale& converter, bool average) {
   const std::string source = "sinew identify sensor " + c.file;
   Provenance provenance;
   std::vector<robot::Sensor> sensors;
@@ -127,8 +129,7 @@ std::string sensor_file(const Calibration& c, const CountScale& converter, bool 
     v.group({.name = "real"}, [&](auto& g) { robot::real_fields(g, s); });
     v.group({.name = "assumed"}, [&](auto& g) { robot::assumed_fields(g, s); });
   });
-  for (const config::Node& child : writer.root().children) robot.put(child);
-  return config::to_toml(robot);
+  return writer.root();
 }
 
 // Returns the known value at rest [SI] from a text with a unit, or in SI: "0.1 SI".
@@ -160,10 +161,50 @@ void warn_below_zero(Calibration& c) {
           r.name, r.at_rest));
 }
 
-}  // namespace
+std::string percent(double share) { return digits(100 * share, "{:.2f} %"); }
 
-Json to_json(const SensorFound& found) {
+// Returns the unit of a scale: the chosen one, else that of the known values.
+std::string shown_scale(const Calibration& c, const std::string& display,
+                        const config::UnitsToShow& chosen) {
+  if (!chosen.is_requested) return scale_unit_for(c, display);
+  const std::string unit = scale_unit(c);
+  if (units::read_quantity_unit(unit)) return chosen.units.of(unit).name;
+  const auto given = units::read_quantity_unit(display);
+  return scale_unit_for(c, given ? chosen.units.of(given->stored).name : display);
+}
+
+// Table 4-1, with model, errors and noise of each sensor.
+void put_table(std::string& out, const Calibration& c, const std::string& shown) {
+  using enum report::TextTable::Align;
+  const std::string unit = scale_unit(c);
+  report::TextTable table(
+      {"sensor", "scale [" + shown + "]", "95 %", "at rest [V]", "model", "held out", "linearity",
+       "hysteresis", "noise [mV]", "step [mV]", "error from average"},
+      {left, right, right, right, left, right, right, right, right, right, right});
+  const auto add = [&](const std::string& name, double sensitivity, auto... rest) {
+    const double scale = config::convert(scale_of(c, sensitivity), unit, shown);
+    table.add({name, digits(scale, "{:.5g}"), rest...});
+  };
+  for (const SensorResult& r : c.sensors) {
+    const Fit& best = r.report.best();
+    add(r.name, r.sensitivity,
+        digits(config::convert(scale_uncertainty(c, r), unit, shown), "+- {:.2g}"),
+        digits(r.at_rest, "{:.4f}"), best.model,
+        best.held_out ? percent(best.held_out->rmse_percent / 100) : "-", percent(r.linearity),
+        percent(r.hysteresis), digits(1000 * r.noise, "{:.2g}"), digits(1000 * r.step, "{:.3g}"),
+        c.sensors.size() > 1 ? digits(100 * r.deviation, "{:+.1f} %") : "-");
+  }
+  if (c.sensors.size() > 1) add("average", c.average);
+  put(out, "{}", table.text());
+}
+
+void put_calibration(const SensorFound& found, const TextOptions& how, std::string& out) {
   const Calibration& c = found.calibration;
+  if (c.sensors.size() == 1) put(out, "\n");
+  put_table(out, c, shown_scale(c, found.display, how.units));
+}
+
+Json json_of(const Calibration& c) {
   Json out{{"format", "sinew.identification/1"}, {"subject", "calibration of sensors"}};
   out["average_sensitivity"] = c.average;
   // The values of a single transducer are at top level, as for other methods.
@@ -179,6 +220,8 @@ Json to_json(const SensorFound& found) {
   return out;
 }
 
+}  // namespace
+
 SensorFound find(const SourceList& sources, const SensorSettings& settings) {
   const Source& source = only_of(sources);
   const CountScale converter{settings.bits, SettingValues(settings).of(settings.full_scale)};
@@ -191,16 +234,19 @@ SensorFound find(const SourceList& sources, const SensorSettings& settings) {
   Calibration c = identify_sensors(data, converter, rest, other ? &*other : nullptr);
   check_base(settings.base, c);
   warn_below_zero(c);
-  return {std::move(c), data.display, converter, settings.average, settings.base};
-}
-
-std::string SensorFound::file(const std::string& out) const {
-  return sensor_file(calibration, converter, average, robot_over(base, out));
-}
-
-Reports reports_of(const SensorFound& found) {
-  Reports out;
-  for (const SensorResult& sensor : found.calibration.sensors) out.push_back(&sensor.report);
+  SensorFound out;
+  out.files = {part_of_robot(tables_of(c, converter, settings.average), settings.base)};
+  for (const SensorResult& sensor : c.sensors) out.reports.push_back(sensor.report);
+  out.is_report_text = out.reports.size() == 1;
+  out.title = "calibration of sensors from " + c.file;
+  out.remarks = {c.notes, c.warnings};
+  if (!out.is_report_text)
+    for (const Report& r : out.reports)
+      out.remarks.notes.insert(out.remarks.notes.end(), r.notes.begin(), r.notes.end());
+  out.json = json_of(c);
+  out.calibration = std::move(c);
+  out.display = data.display;
+  prints(out, put_calibration);
   return out;
 }
 

@@ -14,6 +14,7 @@
 #include "sinew/identify/data/averaged.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/task/tables.h"
+#include "sinew/report/text/text_table.h"
 
 namespace sinew::identify {
 
@@ -131,29 +132,30 @@ double predicted_length(const std::string& setting, double atmosphere) {
                                   "m", atmosphere, actuator_length);
 }
 
-// Adds muscles that were not measured, with notes of their uncertainty.
-void add_predicted(const std::vector<double>& lengths, const StaticSettings& settings,
-                   const std::string& source, StaticFound& found) {
-  for (const double length : lengths) {
-    const StaticMuscle muscle = muscle_of(found.result, length);
-    const actuator::Prediction p = prediction_of(found.result, muscle);
-    const std::string what = fmt::format("a muscle of {:.4g} mm, from the others: ", 1e3 * length);
-    if (p.inside_95 > 0)
-      found.result.report.notes.push_back(
-          what + fmt::format("68 % of its forces are expected within {:.3g} N of the law, 95 % "
-                             "within {:.3g} N, between {:.4g} and {:.4g} mm",
-                             actuator::widest_inside_68(p), actuator::widest_inside_95(p),
-                             1e3 * p.lengths.front(), 1e3 * p.lengths.back()));
-    else
-      found.result.report.warnings.push_back(
-          what +
-          "how far off it is stays unknown, as no muscle could be left out; "
-          "measure muscles of two rest lengths, or one force of this muscle");
-    found.predicted.push_back(muscle);
-    found.predicted_files.push_back(static_file(found.result, muscle, settings.name,
-                                                source + ", of another rest length",
-                                                settings.actuator));
-  }
+ParameterFile file_of(const StaticResult& found, const StaticMuscle& muscle,
+                      const std::string& source, const StaticSettings& settings) {
+  ParameterFile out =
+      file_with(static_file(found, muscle, settings.name, source, settings.actuator));
+  out.suffix = fmt::format("-{:.0f}mm", 1e3 * muscle.rest_length);
+  return out;
+}
+
+// Adds a remark on the uncertainty of a muscle that was not measured.
+void note_prediction(const StaticMuscle& muscle, StaticResult& found) {
+  const actuator::Prediction p = prediction_of(found, muscle);
+  const std::string what =
+      fmt::format("a muscle of {:.4g} mm, from the others: ", 1e3 * muscle.rest_length);
+  if (p.inside_95 > 0)
+    found.report.notes.push_back(
+        what + fmt::format("68 % of its forces are expected within {:.3g} N of the law, 95 % "
+                           "within {:.3g} N, between {:.4g} and {:.4g} mm",
+                           actuator::widest_inside_68(p), actuator::widest_inside_95(p),
+                           1e3 * p.lengths.front(), 1e3 * p.lengths.back()));
+  else
+    found.report.warnings.push_back(
+        what +
+        "how far off it is stays unknown, as no muscle could be left out; "
+        "measure muscles of two rest lengths, or one force of this muscle");
 }
 
 // Reads all tables, the held-out ones last.
@@ -171,6 +173,71 @@ CheckInput read_tables(const std::vector<Source>& sources, const StaticSettings&
   for (const Source& source : others) read_table(settings, input, source, unreadable, out);
   keep_branch(settings.branch, out.data);
   return out;
+}
+
+void put_files(std::string& out, const std::vector<RecognisedFile>& files, std::size_t width) {
+  report::TextTable table({"file", "rows", "is", "columns"},
+                          {report::TextTable::Align::left, report::TextTable::Align::right});
+  for (const RecognisedFile& f : files) {
+    std::string columns;
+    for (const RecognisedColumn& c : f.columns)
+      columns +=
+          fmt::format("{}{} {} … {}", columns.empty() ? "" : ", ", c.name, c.lowest, c.highest);
+    table.add(
+        {f.file, std::to_string(f.rows),
+         f.is_recording ? fmt::format("a recording, {:.3g} % settled", 100 * f.settled) : "a table",
+         columns});
+  }
+  put(out, "{}\n", table.text_within(width));
+}
+
+void put_mounts(std::string& out, const std::vector<RecognisedMount>& mounts) {
+  using enum report::TextTable::Align;
+  report::TextTable table({"muscle [mm]", "mount [mm]", "points", "pressures", "from [kPa]",
+                           "to [kPa]", "largest force [N]", "branches"},
+                          {right, right, right, right, right, right, right, left});
+  for (const RecognisedMount& m : mounts)
+    table.add({m.rest_length > 0 ? fmt::format("{:.4g}", 1e3 * m.rest_length) : "?",
+               fmt::format("{:.4g}", 1e3 * m.length),
+               m.held_out > 0 ? fmt::format("{} + {} held out", m.points, m.held_out)
+                              : std::to_string(m.points),
+               std::to_string(m.pressures), fmt::format("{:.4g}", m.lowest / 1e3),
+               fmt::format("{:.4g}", m.highest / 1e3), fmt::format("{:.4g}", m.strongest),
+               m.branches.empty() ? "unknown" : m.branches});
+  if (!table.empty()) put(out, "{}\n", table.text());
+}
+
+void put_noise(std::string& out, const ForceNoise& noise) {
+  if (noise.readings == 0)
+    put(out, "noise of force: unknown, as no reading is repeated\n\n");
+  else
+    put(out, "noise of force: {:.2g} N, {:.2g} % of the largest, from {} {}\n\n", noise.deviation,
+        100 * noise.share, noise.readings, noise.from);
+}
+
+void put_checks(std::string& out, const std::vector<Check>& checks) {
+  for (const Check& c : checks) {
+    put(out, "{:<6}  {:<17}  {}\n", word(c.light), c.name, c.evidence);
+    if (!c.advice.empty()) put(out, "{:27}{}\n", "", c.advice);
+  }
+}
+
+void put_determined(std::string& out, const DeterminedLaw& law) {
+  if (!law.refused.empty()) {
+    put(out, "\nwhat a fit could determine: not evaluated, {}\n", law.refused);
+    return;
+  }
+  report::TextTable table({"a fit could determine", "known", "to know more, measure"});
+  for (const Determined& d : law.parameters) table.add({d.name, d.words, d.advice});
+  put(out, "\n{}by the richest law, {}: {}\n", table.text(), law.model, law.law);
+}
+
+void put_checkup(const CheckFound& found, const TextOptions& how, std::string& out) {
+  put_files(out, found.checkup.recognised.files, how.width);
+  put_mounts(out, found.checkup.recognised.mounts);
+  put_noise(out, found.checkup.recognised.noise);
+  put_checks(out, found.checkup.checks);
+  put_determined(out, found.checkup.determined);
 }
 
 }  // namespace
@@ -192,24 +259,30 @@ StaticFound find(const SourceList& sources, const StaticSettings& settings) {
     lengths.push_back(predicted_length(setting, sources[0].atmosphere));
   apply_checks(check_static(read), settings.anyway, read.data.warnings);
 
-  StaticFound out{identify_static(read.data, options_of(sources, settings, read)), {}, {}, {}};
-  Report& report = out.result.report;
-  report.title = title_of(sources, settings, out.result.muscles);
-  report.further = further_measurements(out.result, sources[0].atmosphere, read.braid);
+  StaticResult result = identify_static(read.data, options_of(sources, settings, read));
+  result.report.title = title_of(sources, settings, result.muscles);
+  result.report.further = further_measurements(result, sources[0].atmosphere, read.braid);
   const std::string source = "sinew identify static " + sources[0].path;
-  for (const StaticMuscle& muscle : out.result.muscles)
-    out.files.push_back(static_file(out.result, muscle, settings.name, source, settings.actuator));
-  add_predicted(lengths, settings, source, out);
+  std::vector<ParameterFile> files;
+  for (const StaticMuscle& muscle : result.muscles)
+    files.push_back(file_of(result, muscle, source, settings));
+  for (const double length : lengths) {
+    const StaticMuscle muscle = muscle_of(result, length);
+    note_prediction(muscle, result);
+    files.push_back(file_of(result, muscle, source + ", of another rest length", settings));
+  }
+  StaticFound out(std::move(result));
+  out.files = std::move(files);
+  out.json["air_at_rest"] = to_json(out.result.air);
   return out;
 }
 
-Checkup find(const SourceList& sources, const CheckSettings& settings) {
-  return check_up(read_tables(sources, settings.how, Unreadable::is_red));
-}
-
-Json to_json(const StaticFound& found) {
-  Json out = to_json(found.result.report);
-  out["air_at_rest"] = to_json(found.result.air);
+CheckFound find(const SourceList& sources, const CheckSettings& settings) {
+  CheckFound out;
+  out.checkup = check_up(read_tables(sources, settings.how, Unreadable::is_red));
+  out.json = to_json(out.checkup);
+  out.fails = has_red(out.checkup.checks);
+  prints(out, put_checkup);
   return out;
 }
 

@@ -54,7 +54,7 @@ TEST(Task, CheckFindsAForceThatIsNotOfTheDiameter) {
       text += std::to_string(length) + "," + std::to_string(p) + "," +
               std::to_string(0.9 * p - 3.0 * (250 - length)) + "\n";
   const auto light_of = [&](const StaticSettings& settings, const std::string& name) {
-    for (const Check& c : find(table(text, "rig.csv"), CheckSettings{settings}).checks)
+    for (const Check& c : find(table(text, "rig.csv"), CheckSettings{settings}).checkup.checks)
       if (c.name == name) return std::string(word(c.light));
     return std::string("absent");
   };
@@ -73,16 +73,16 @@ TEST(Task, FindsTheBraidOfATable) {
   const GeometryFound found = find(mesh(), GeometrySettings{});
   EXPECT_NEAR(found.braid.thread_length, 0.1, 1e-6);
   EXPECT_NEAR(found.braid.turns, 1, 1e-5);
-  EXPECT_NE(found.file.find("sinew identify geometry numbers"), std::string::npos);
-  const Json json = to_json(found);
+  EXPECT_NE(found.file().find("sinew identify geometry numbers"), std::string::npos);
+  const Json json = found.json;
   EXPECT_EQ(json["format"], "sinew.identification/1");
   EXPECT_EQ(json["thread_length_m"], found.braid.thread_length);
 }
 
 TEST(Task, CountsTrapezoidsWithoutATable) {
   const GeometryFound found = find({}, GeometrySettings{.trapezoids = "37,16", .side = "0.057 in"});
-  EXPECT_FALSE(found.report.has_value());
-  EXPECT_FALSE(to_json(found).contains("format"));
+  EXPECT_TRUE(found.reports.empty());
+  EXPECT_FALSE(found.json.contains("format"));
   expect_begins(refusal([] { find({}, GeometrySettings{.trapezoids = "37", .side = "1 mm"}); }),
                 "trapezoids: found \"37\"");
   expect_begins(refusal([] { find({}, GeometrySettings{.trapezoids = "37,16", .side = "2 m"}); }),
@@ -141,11 +141,11 @@ TEST(Task, FindsAPairAndWritesItsJoint) {
   EXPECT_NEAR(found.result.values.friction, 0.8, 0.03);
   EXPECT_EQ(found.result.report.held_out_is, "each recording from 4 s on");
   EXPECT_GT(found.result.report.best().held_out->explained, 0.999);
-  const std::string file = found.file("");
+  const std::string file = found.file();
   EXPECT_NE(file.find("dry_friction"), std::string::npos) << file;
   EXPECT_NE(file.find("knee"), std::string::npos) << file;
   EXPECT_EQ(file.find("damping"), std::string::npos) << file;
-  const Json json = to_json(found);
+  const Json json = found.json;
   EXPECT_FALSE(json.contains("stiffness_N_per_m"));
   EXPECT_EQ(json["stiffness_Nm_per_rad"], found.result.stiffness.value);
   EXPECT_TRUE(json["held_out"].contains("r_squared"));

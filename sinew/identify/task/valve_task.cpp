@@ -204,6 +204,22 @@ void refuse_beside_added(const ValveSettings& s, const std::vector<Source>& othe
            "none with added volumes: every second tenth of each curve is held out");
 }
 
+ValveFound found_of(ValveResult result, const ValveSettings& settings) {
+  ValveFound out(std::move(result));
+  out.refused = out.result.refused;
+  if (!out.refused.empty()) out.json["refused"] = out.refused;
+  out.frequency = settings.frequency;
+  out.files = {{[found = out.result](const std::string& at) {
+    if (!found.refused.empty()) throw Refusal(found.refused);
+    const gas::Flow& flow = found.valve.flow;
+    if (!(flow.area > 0) && !(flow.sonic_conductance > 0))
+      throw Refusal(at, "delays, but no flow of the valve", "both for a file",
+                    "base=VALVES.toml with a valve of that name, whose flow is kept");
+    return valve_file(found.valve, found.provenance);
+  }}};
+  return out;
+}
+
 }  // namespace
 
 ValveFound find(const SourceList& sources, const ValveSettings& settings) {
@@ -214,28 +230,14 @@ ValveFound find(const SourceList& sources, const ValveSettings& settings) {
   const std::vector<Source> others = held_out_tables(settings.hold_out, sources);
   if (const std::vector<AddedFill> fills = added_fills(sources, settings, values); !fills.empty()) {
     refuse_beside_added(settings, others);
-    return {identify_added(fills, options)};
+    return found_of(identify_added(fills, options), settings);
   }
   if (sources.size() > 1)
     config::fail({"data", 0, 0}, "", std::to_string(sources.size()) + " files",
                  "one, or fillings with known volumes joined to the chamber",
                  "added_volume=\"0 L,0.5 L\"");
-  return {identified(read_valve(sources.front()), options, settings.kind, others)};
-}
-
-std::string ValveFound::file(const std::string& out) const {
-  if (!result.refused.empty()) throw Refusal(result.refused);
-  const gas::Flow& flow = result.valve.flow;
-  if (!(flow.area > 0) && !(flow.sonic_conductance > 0))
-    throw Refusal(out, "delays, but no flow of the valve", "both for a file",
-                  "base=VALVES.toml with a valve of that name, whose flow is kept");
-  return valve_file(result.valve, result.provenance);
-}
-
-Json to_json(const ValveFound& found) {
-  Json out = to_json(found.result.report);
-  if (!found.result.refused.empty()) out["refused"] = found.result.refused;
-  return out;
+  return found_of(identified(read_valve(sources.front()), options, settings.kind, others),
+                  settings);
 }
 
 TimingFile timing_of(const ValveFound& found, const std::string& frequency) {
@@ -243,7 +245,7 @@ TimingFile timing_of(const ValveFound& found, const std::string& frequency) {
   if (!r.opening_known || !r.closing_known)
     throw Refusal("predict_dat", "no opening and closing delay", "both",
                   "a map of duties, or pulses and their pressure");
-  const ValveSettings settings{.frequency = frequency};
+  const ValveSettings settings{.frequency = frequency.empty() ? found.frequency : frequency};
   const double hertz = SettingValues(settings).of(settings.frequency, "100 Hz");
   const CompensatedTiming timing = compensated(r.valve.opening_delay, r.valve.closing_delay, hertz);
   return {predict_dat(timing.timing), hertz, timing.worst};
