@@ -1,8 +1,13 @@
 #include "sinew/identify/contest/contest.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numeric>
+#include <optional>
+#include <stdexcept>
 
 #include "sinew/identify/contest/refusal.h"
 
@@ -26,7 +31,46 @@ FitProblem problem_of(const Candidate& candidate, const std::vector<double>& mea
           .count = rows.size(),
           .parameters = candidate.parameters,
           .options = candidate.options,
-          .constraints = {}};
+          .constraints = candidate.constraints};
+}
+
+Rowset all_of(const std::vector<double>& measured) {
+  Rowset out(measured.size());
+  std::iota(out.begin(), out.end(), 0);
+  return out;
+}
+
+Solution solution_of(const FitProblem& problem, const SolverOptions& options) {
+  return least_squares(problem.residuals, problem.count, problem.parameters, problem.constraints,
+                       options);
+}
+
+// Returns the solutions from the candidate's starts. A start at which the law is undefined has
+// none; throws Refusal if all are of this kind.
+std::vector<Solution> solutions_of(const Candidate& candidate, FitProblem problem) {
+  SolverOptions options = problem.options;
+  options.tolerance = std::max(options.tolerance, candidate.search_tolerance);
+  std::vector<Solution> out;
+  for (const std::vector<double>& start : candidate.starts) {
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      Parameter& p = problem.parameters[i];
+      p.start = std::clamp(start[i], p.low, p.high);
+    }
+    try {
+      out.push_back(solution_of(problem, options));
+    } catch (const Refusal&) {
+      if (&start == &candidate.starts.back() && out.empty()) throw;
+    }
+  }
+  return out;
+}
+
+// Returns what the search minimises.
+double loss_of(const Solution& s, double outlier) {
+  double sum = 0;
+  for (const double r : s.residuals)
+    sum += outlier > 0 ? std::log1p(std::pow(r / outlier, 2)) : r * r;
+  return sum;
 }
 
 void start_at(const Solution& solution, FitProblem& problem) {
@@ -53,6 +97,7 @@ std::vector<double> at(const std::vector<double>& values, const Rowset& rows) {
 // row needs no fit.
 std::vector<double> left_out_residuals(const Candidate& candidate, const Trial& trial,
                                        const Rowset& rows, const Solution& whole) {
+  if (candidate.left_out) return candidate.left_out(whole);
   std::vector<double> out;
   for (const Split& split : trial.splits) {
     Solution part = whole;
@@ -60,7 +105,7 @@ std::vector<double> left_out_residuals(const Candidate& candidate, const Trial& 
       FitProblem problem = problem_of(candidate, trial.measured, split.fitted);
       start_at(whole, problem);
       problem.options.tolerance = std::max(problem.options.tolerance, 1e-12);
-      part = least_squares(problem.residuals, problem.count, problem.parameters, problem.options);
+      part = solution_of(problem, problem.options);
     }
     const auto left = at(misses(candidate, trial.measured, part.values), split.held_out);
     out.insert(out.end(), left.begin(), left.end());
@@ -68,35 +113,41 @@ std::vector<double> left_out_residuals(const Candidate& candidate, const Trial& 
   return out;
 }
 
+// Returns the solution from the best of the starts; the problem then starts there.
+Solution solved(const Candidate& candidate, FitProblem& problem, Fit& fit) {
+  std::vector<Solution> all;
+  std::optional<Solution> best;
+  if (!candidate.starts.empty()) {
+    all = solutions_of(candidate, problem);
+    best = *std::ranges::min_element(
+        all, {}, [&](const Solution& s) { return loss_of(s, problem.options.outlier); });
+    start_at(*best, problem);
+  }
+  if (!best || candidate.search_tolerance > problem.options.tolerance)
+    best = solution_of(problem, problem.options);
+  if (candidate.refuse) fit.refused = candidate.refuse(*best, all);
+  return std::move(*best);
+}
+
 Fit fit_of(const Candidate& candidate, const Trial& trial, double full_scale) {
   Fit out{.model = candidate.model, .law = candidate.law, .source = candidate.source};
   out.refused = candidate.refused;
+  out.notes = candidate.notes;
   if (!out.refused.empty()) return out;
-  Rowset rows = trial.rows;
-  if (rows.empty()) {
-    rows.resize(trial.measured.size());
-    std::iota(rows.begin(), rows.end(), 0);
-  }
+  const Rowset rows = trial.rows.empty() ? all_of(trial.measured) : trial.rows;
   try {
     FitProblem problem = problem_of(candidate, trial.measured, rows);
-    if (!candidate.starts.empty()) {
-      SolverOptions roughly = problem.options;
-      roughly.tolerance = std::max(roughly.tolerance, 1e-6);
-      start_at(least_squares_from(problem.residuals, problem.count, problem.parameters,
-                                  candidate.starts, roughly),
-               problem);
-    }
-    Solution found =
-        least_squares(problem.residuals, problem.count, problem.parameters, problem.options);
+    Solution found = solved(candidate, problem, out);
     out.parameters = found.estimates;
     out.fit = score(found.residuals, full_scale);
     out.residuals = misses(candidate, trial.measured, found.values);
-    if (!trial.splits.empty()) {
+    if (!trial.splits.empty() || candidate.left_out) {
       const std::vector<double> left = left_out_residuals(candidate, trial, rows, found);
       (trial.cross_validates ? out.cross_validated : out.held_out) = score(left, full_scale);
-      out.band = band_of(left, trial.band_where);
+      if (trial.has_band) out.band = band_of(left, trial.band_where);
+      if (trial.shows_left_out) out.residuals.insert(out.residuals.end(), left.begin(), left.end());
     }
-    keep_off_bounds(out, candidate.may_be_at_bound);
+    if (!candidate.may_be_at_bounds) keep_off_bounds(out, candidate.may_be_at_bound);
     out.refit = std::make_shared<Refit>(std::move(problem), std::move(found));
   } catch (const Refusal& refusal) {
     out.refused = refusal.what();
@@ -124,8 +175,23 @@ std::vector<Split> each_row_held_out(std::size_t rows) {
   return each_part_held_out(part);
 }
 
-void fit_candidates(const std::vector<Candidate>& candidates, const Trial& trial, Report& report,
+void check_constraints(std::span<const Candidate> candidates) {
+  std::vector<Parameter> all;
+  for (const Candidate& c : candidates)
+    all.insert(all.end(), c.parameters.begin(), c.parameters.end());
+  if (!candidates.empty()) candidates[0].constraints.check(all);
+}
+
+Solution solve(const Candidate& candidate, const std::vector<double>& measured) {
+  const FitProblem problem = problem_of(candidate, measured, all_of(measured));
+  return solution_of(problem, problem.options);
+}
+
+void fit_candidates(std::vector<Candidate> candidates, const Trial& trial, Report& report,
                     host::Tally* done) {
+  if (!trial.model.empty())
+    std::erase_if(candidates, [&](const Candidate& c) { return c.model != trial.model; });
+  if (candidates.empty()) throw std::invalid_argument(fmt::format("no model {}", trial.model));
   const std::size_t before = report.fits.size();
   report.fits.resize(before + candidates.size());
   host::side_by_side(

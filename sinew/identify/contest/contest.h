@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "sinew/host/side_by_side.h"
+#include "sinew/identify/contest/constraint.h"
 #include "sinew/identify/contest/fit.h"
 #include "sinew/identify/contest/least_squares.h"
 
@@ -28,10 +29,34 @@ struct Candidate {
   std::vector<Parameter> parameters;
   Prediction predict;
   std::vector<std::vector<double>> starts;  // the best solution is used; empty: Parameter::start
+  double search_tolerance = 1e-6;  // of the solutions from the starts; the best is then refined
   SolverOptions options;
+  Constraints constraints;
   std::vector<std::string_view> may_be_at_bound;  // parameters with a meaning there
+  bool may_be_at_bounds = false;                  // all of them have one
   std::string refused;                            // reason known before a fit; empty: it is fitted
+  std::vector<std::string> notes;                 // as in Fit
+
+  // Returns predicted - measured for data that take more than the rows of a split, such as a
+  // recording with a start of its own, by the solution for all rows. Empty: the splits are used.
+  std::function<std::vector<double>(const Solution& whole)> left_out;
+  // Returns why the solution cannot be used, compared with those of all starts; empty: it can.
+  std::function<std::string(const Solution& best, std::span<const Solution> all)> refuse;
 };
+
+// Throws config::Error if their constraints name a parameter that no candidate has.
+void check_constraints(std::span<const Candidate> candidates);
+
+// Returns the solution for all rows, from the parameters' starts alone.
+Solution solve(const Candidate& candidate, const std::vector<double>& measured);
+
+// Returns the names of laws.
+template <class Laws>
+std::vector<std::string> names_of_laws(const Laws& laws) {
+  std::vector<std::string> out;
+  for (const auto& law : laws) out.emplace_back(law.name);
+  return out;
+}
 
 // Indices of rows that a law is fitted to, and of rows that it then predicts.
 struct Split {
@@ -53,11 +78,16 @@ struct Trial {
   // score of held-out rows (Fit::held_out).
   bool cross_validates = false;
   std::string band_where;  // condition of the band, e.g. "while the pressure rests"; empty: none
+  bool has_band = true;
+  bool shows_left_out = false;  // residuals of Candidate::left_out follow those of the rows
+
+  std::string_view model = "";  // the only law to try; empty: all
 };
 
 // Fits the candidates on all cores and appends them to the report, whose full scale is set. A
 // candidate that throws Refusal is entered as refused. `done` counts the laws that have been tried.
-void fit_candidates(const std::vector<Candidate>& candidates, const Trial& trial, Report& report,
+// Throws std::invalid_argument if none has the name Trial::model.
+void fit_candidates(std::vector<Candidate> candidates, const Trial& trial, Report& report,
                     host::Tally* done = nullptr);
 
 }  // namespace sinew::identify

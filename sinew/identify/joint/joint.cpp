@@ -9,14 +9,12 @@
 #include <numbers>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string_view>
 #include <vector>
 
 #include "sinew/actuator/braid.h"
 #include "sinew/host/side_by_side.h"
-#include "sinew/identify/contest/fit.h"
-#include "sinew/identify/contest/least_squares.h"
+#include "sinew/identify/contest/contest.h"
 #include "sinew/identify/contest/matrix.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/measured.h"
@@ -29,17 +27,10 @@ namespace {
 
 // --- poses of a joint as rows of a report ---
 
-// Converts residuals, which are sums of the load's and the muscles' torques, to predicted -
-// measured.
-std::vector<double> predicted_minus_measured(std::vector<double> sums) {
-  for (double& sum : sums) sum = -sum;
-  return sums;
-}
-
 // Returns the load's torque at every pose; those of `others` are held out if they are a separate
 // file.
 Rows rows_of(const Measured& data, const JointTorque& joint,
-             const std::optional<Measured>& held_out, const JointTorque& others) {
+             const std::optional<Measured>& held_out, const std::optional<JointTorque>& others) {
   Rows out;
   out.x = "angle";
   out.x_unit = "rad";
@@ -50,7 +41,7 @@ Rows rows_of(const Measured& data, const JointTorque& joint,
   const std::vector<double>& angle = (*held_out)["angle"];
   out.held_out.assign(out.size(), false);
   out.at.insert(out.at.end(), angle.begin(), angle.end());
-  out.measured.insert(out.measured.end(), others.torque().begin(), others.torque().end());
+  out.measured.insert(out.measured.end(), others->torque().begin(), others->torque().end());
   out.held_out.resize(out.size(), true);
   return out;
 }
@@ -249,22 +240,6 @@ constexpr std::array laws{
 using Law = JointLaw;
 using Values = JointValues;
 
-// Throws config::Error for a constraint on a parameter that no law has.
-void check_constraints(const JointTorque& joint, const JointSetup& setup,
-                       const Constraints& constraints) {
-  std::vector<Parameter> all;
-  for (const Law& law : laws)
-    for (JointSlot& slot : joint_slots(law, joint, setup)) all.push_back(std::move(slot.parameter));
-  if (!constraints.empty()) constraints.check(all);
-}
-
-struct Solved {
-  Values values;
-  Solution solution;
-  std::string ambiguous;  // another solution that fits as well
-  std::shared_ptr<const Refit> refit;
-};
-
 // Returns whether the parameter affects a muscle's force or arm.
 bool of_muscles(std::string_view name) {
   for (const std::string_view one : {"moment_arm", "flexor_length", "extensor_length", "c0", "c1"})
@@ -291,57 +266,24 @@ std::string other_solution(const Solution& best, const Solution& other) {
   return "";
 }
 
-Solved solve(const Law& law, const JointTorque& joint, const JointSetup& setup,
-             const Constraints& constraints) {
-  const std::vector<JointSlot> slots = joint_slots(law, joint, setup);
-  std::vector<Parameter> parameters;
-  for (const JointSlot& s : slots) parameters.push_back(s.parameter);
-  const Values known = joint_known(joint, setup);
-  FitProblem problem{
-      .count = joint.rows(),
-      .options = {.correlated = setup.moving,
-                  .widest_interval = widest_interval,
-                  .difference = setup.moving ? across_kinks : SolverOptions{}.difference},
-      .constraints = constraints};
-  problem.residuals = [&law, &joint, slots, known](std::span<const double> p, std::span<double> r) {
-    joint.residuals(law, joint_with(known, slots, p), r);
-    return true;
-  };
-  std::vector<Solution> all;
-  for (const std::vector<double>& start : joint_starts(slots, joint, setup)) {
-    for (std::size_t i = 0; i < parameters.size(); ++i)
-      parameters[i].start = std::clamp(start[i], parameters[i].low, parameters[i].high);
-    all.push_back(
-        least_squares(problem.residuals, joint.rows(), parameters, constraints, problem.options));
-  }
-  const auto best = std::min_element(all.begin(), all.end(), [](const auto& x, const auto& y) {
-    return square_sum(x) < square_sum(y);
-  });
-  problem.parameters = parameters;
-  Solved out{joint_with(known, slots, best->values), *best, "",
-             std::make_shared<Refit>(std::move(problem), *best)};
-  for (const Solution& other : all)
-    if (out.ambiguous.empty()) out.ambiguous = other_solution(*best, other);
-  return out;
-}
-
 std::string error_text(const Combination& c) {
   if (!std::isfinite(c.relative_error)) return c.text + " is not determined";
   return fmt::format("{} +- {:.2g} %", c.text, 100 * c.relative_error);
 }
 
-// Returns the parameters that the data do not separate; empty if all muscle parameters are
-// determined.
-std::string inseparable(const Solved& solved) {
-  const Solution& s = solved.solution;
-  std::string which;
+// Returns the parameters that the data do not separate, or another solution that fits as well;
+// empty if all muscle parameters are determined.
+std::string inseparable(const Solution& s, std::span<const Solution> all_starts) {
+  std::string which, ambiguous;
+  for (const Solution& other : all_starts)
+    if (ambiguous.empty()) ambiguous = other_solution(s, other);
   for (const Estimate& e : s.estimates) {
     const bool matters = of_muscles(e.name);
     if (matters && e.free && (e.at_bound || !e.identifiable))
       which += (which.empty() ? "" : ", ") + e.name;
   }
-  if (which.empty() && solved.ambiguous.empty()) return "";
-  std::string out = which.empty() ? solved.ambiguous : which + " cannot be separated";
+  if (which.empty() && ambiguous.empty()) return "";
+  std::string out = which.empty() ? ambiguous : which + " cannot be separated";
   const std::vector<Combination> all = combinations_of(s);
   if (!all.empty() && std::isfinite(all.front().relative_error))
     out += "; determined is " + error_text(all.front());
@@ -396,54 +338,62 @@ void refuse_without_torque(const Measured& data, const JointSetup& setup) {
                   "keep_force=true, or another recording");
 }
 
-// Splits off the last third of each recording, as neighbouring samples of a motion are not
+// Returns the last third of each recording, as neighbouring samples of a motion are not
 // independent.
-std::pair<Measured, Measured> last_thirds(const Measured& data) {
-  std::vector<std::size_t> keep, out;
+Split last_thirds(const Measured& data) {
+  Split out;
   const std::vector<double>* of = data.has("recording") ? &data["recording"] : nullptr;
   for (std::size_t from = 0; from < data.rows();) {
     std::size_t to = from;
     while (to < data.rows() && (!of || (*of)[to] == (*of)[from])) ++to;
     for (std::size_t i = from; i < to; ++i)
-      (3 * (i - from) < 2 * (to - from) ? keep : out).push_back(i);
+      (3 * (i - from) < 2 * (to - from) ? out.fitted : out.held_out).push_back(i);
     from = to;
   }
-  return {data.subset(keep), data.subset(out)};
+  return out;
 }
 
-std::pair<Measured, Measured> every_third(const Measured& data) {
-  std::vector<std::size_t> keep, out;
-  for (std::size_t i = 0; i < data.rows(); ++i) (i % 3 == 2 ? out : keep).push_back(i);
-  return {data.subset(keep), data.subset(out)};
+Split every_third(const Measured& data) {
+  Split out;
+  for (std::size_t i = 0; i < data.rows(); ++i)
+    (i % 3 == 2 ? out.held_out : out.fitted).push_back(i);
+  return out;
 }
 
-std::vector<double> residuals_of(const Law& law, const JointTorque& joint, const Values& values) {
-  std::vector<double> r(joint.rows());
-  joint.residuals(law, values, r);
-  return r;
-}
-
-// Fits one law to all rows and scores it on those that are held out.
-Fit tried_fit(const Law& law, const JointTorque& joint, const JointTorque& some,
-              const JointTorque& others, bool refit, const JointSetup& setup,
-              const Constraints& constraints, double full_scale, Solved& solved) {
-  Fit fit{.model = law.name, .law = law.law, .source = law.source};
-  try {
-    solved = solve(law, joint, setup, constraints);
-    fit.parameters = solved.solution.estimates;
-    fit.refit = solved.refit;
-    fit.refused = inseparable(solved);
-    fit.fit = score(solved.solution.residuals, full_scale);
-    fit.residuals = predicted_minus_measured(solved.solution.residuals);
-    const Values values = refit ? solve(law, some, setup, constraints).values : solved.values;
-    const std::vector<double> unseen = residuals_of(law, others, values);
-    fit.held_out = score(unseen, full_scale);
-    const std::vector<double> told = predicted_minus_measured(unseen);
-    if (!refit) fit.residuals.insert(fit.residuals.end(), told.begin(), told.end());
-  } catch (const Refusal& e) {
-    fit.refused = e.what();
-  }
-  return fit;
+// Returns a law that predicts the unbalanced torque of each row, which is measured as zero. Rows of
+// `others` are scored and not fitted; null: the splits are.
+Candidate candidate_of(const Law& law, const JointTorque& joint, const JointTorque* others,
+                       const JointSetup& setup, const Constraints& constraints) {
+  const std::vector<JointSlot> slots = joint_slots(law, joint, setup);
+  Candidate out{.model = law.name,
+                .law = law.law,
+                .source = law.source,
+                .starts = joint_starts(slots, joint, setup),
+                .search_tolerance = 0,
+                .options = {.correlated = setup.moving,
+                            .widest_interval = widest_interval,
+                            .difference = setup.moving ? across_kinks : SolverOptions{}.difference},
+                .constraints = constraints,
+                .may_be_at_bounds = true,
+                .refuse = inseparable};
+  for (const JointSlot& s : slots) out.parameters.push_back(s.parameter);
+  const auto torque_of = [&law, slots, known = joint_known(joint, setup)](
+                             const JointTorque& of, std::span<const double> p,
+                             std::span<double> values) {
+    of.residuals(law, joint_with(known, slots, p), values);
+    for (double& sum : values) sum = -sum;  // predicted - measured
+  };
+  out.predict = [&joint, torque_of](std::span<const double> p, std::span<double> values) {
+    torque_of(joint, p, values);
+    return true;
+  };
+  if (others)
+    out.left_out = [others, torque_of](const Solution& whole) {
+      std::vector<double> values(others->rows());
+      torque_of(*others, whole.values, values);
+      return values;
+    };
+  return out;
 }
 
 // Writes the arms over the measured angles.
@@ -494,11 +444,7 @@ std::span<const ColumnSpec> joint_columns(bool moving) {
   return std::span<const ColumnSpec>(columns).first(columns.size() - (moving ? 0 : 1));
 }
 
-std::vector<std::string> joint_models() {
-  std::vector<std::string> out;
-  for (const Law& law : laws) out.emplace_back(law.name);
-  return out;
-}
+std::vector<std::string> joint_models() { return names_of_laws(laws); }
 
 JointResult identify_joint(const Measured& data, const std::optional<Measured>& other,
                            const JointSetup& setup, std::string_view model,
@@ -508,11 +454,8 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
   refuse_without_torque(data, setup);
   refuse_unusable(data, joint, setup);
   if (held_out) refuse_other_columns(data, *held_out);
-  check_constraints(joint, setup, constraints);
-  const auto [seen, unseen] = held_out       ? std::pair(data, *held_out)
-                              : setup.moving ? last_thirds(data)
-                                             : every_third(data);
-  const JointTorque some(seen, setup), others(unseen, setup);
+  std::optional<JointTorque> others;
+  if (held_out) others.emplace(*held_out, setup);
 
   JointResult out;
   Report& report = out.report;
@@ -528,28 +471,30 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
   report.notes = data.notes;
   report.not_shown = {"the joint at angles and pressures between which no pose was measured"};
 
-  std::vector<const Law*> tried;
-  for (const Law& law : laws) {
-    if (!model.empty() && model != law.name) continue;
-    if (setup.keep_force && law.pressure) continue;  // the force is given
-    tried.push_back(&law);
-  }
-  if (tried.empty()) throw std::invalid_argument(fmt::format("no model {}", model));
-  std::vector<Solved> solved(tried.size());
-  report.fits.resize(tried.size());
-  const auto attempt = [&](std::size_t k) {
-    report.fits[k] = tried_fit(*tried[k], joint, some, others, !held_out, setup, constraints,
-                               report.full_scale, solved[k]);
-  };
-  host::side_by_side(tried.size(), attempt, done);
+  std::vector<Candidate> candidates;
+  for (const Law& law : laws)
+    if (!setup.keep_force || !law.pressure)  // the force may be given
+      candidates.push_back(
+          candidate_of(law, joint, others ? &*others : nullptr, setup, constraints));
+  check_constraints(candidates);
+  Trial trial{.measured = std::vector<double>(data.rows(), 0.0),
+              .has_band = false,
+              .shows_left_out = held_out.has_value(),
+              .model = model};
+  if (!held_out) trial.splits = {setup.moving ? last_thirds(data) : every_third(data)};
+  fit_candidates(std::move(candidates), trial, report, done);
   refuse_if_all_are(report, data.file);
   report.rows = rows_of(data, joint, held_out, others);
+  std::vector<std::shared_ptr<const Refit>> refits;  // until the choice
+  for (const Fit& fit : report.fits) refits.push_back(fit.refit);
   conclude(report);
 
-  const Law& law = *tried[report.chosen];
-  const Values& v = solved[report.chosen].values;
+  const Law& law = *std::ranges::find(laws, report.best().model, &Law::name);
+  const Solution& solution = refits[report.chosen]->solution;
+  const Values v =
+      joint_with(joint_known(joint, setup), joint_slots(law, joint, setup), solution.values);
   joint.warn_of_ends(law, v, report.warnings);
-  out.combinations = combinations_of(solved[report.chosen].solution);
+  out.combinations = combinations_of(solution);
   out.moment_arm = v.moment_arm;
   out.flexor_length = joint.has_flexor() ? v.flexor_length : to_be_found;
   out.extensor_length = joint.has_extensor() ? v.extensor_length : to_be_found;

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
-#include <stdexcept>
 
+#include "sinew/identify/contest/contest.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
 
@@ -64,20 +63,14 @@ struct Part {
   std::size_t samples;
 };
 
-// Trajectories of all parts as one residual vector. A part whose parameters have not changed since
-// the last call is not integrated again.
+// Lengths of all parts, one after the other. A part whose parameters have not changed since the
+// last call is not integrated again.
 class Trajectories {
  public:
   Trajectories(const Law& law, std::vector<Part> parts, double stiffness)
       : law_(law), parts_(std::move(parts)), stiffness_(stiffness), last_(parts_.size()) {}
 
-  std::size_t size() const {
-    std::size_t n = 0;
-    for (const Part& part : parts_) n += part.samples;
-    return n;
-  }
-
-  bool operator()(std::span<const double> p, std::span<double> r) {
+  bool operator()(std::span<const double> p, std::span<double> lengths) {
     const std::size_t common = shared(law_);
     std::size_t from = 0;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
@@ -91,8 +84,7 @@ class Trajectories {
           return false;
         }
       }
-      for (std::size_t k = 0; k < parts_[i].samples; ++k)
-        r[from + k] = last_[i].lengths[k] - parts_[i].swing->length[k];
+      std::ranges::copy(last_[i].lengths, lengths.begin() + static_cast<std::ptrdiff_t>(from));
       from += parts_[i].samples;
     }
     return true;
@@ -138,27 +130,23 @@ class Dynamic {
     for (const Swing& s : swings_) start_.nuisance.push_back(s.settle(loss));
   }
 
-  // Throws config::Error for a constraint on a parameter that no law has.
-  void check_constraints() const {
-    std::vector<Parameter> all;
-    for (const Law& law : laws)
-      for (Parameter& p : parameters_of(law, fitted_, start_)) all.push_back(std::move(p));
-    if (!constraints_.empty()) constraints_.check(all);
-  }
-
-  Fit fit(const Law& law, double full_scale) const {
-    Fit out{.model = law.name, .law = law.law, .source = law.source};
-    out.refit = std::make_shared<Refit>(solve(law, fitted_, start_));
-    const Solution& s = out.refit->solution;
-    out.parameters = s.estimates;
-    out.fit = score(s.residuals, full_scale);
-    out.residuals = s.residuals;
-    if (law.scale == Scale::constant && law.dry)
-      out.notes.push_back(fmt::format("k = {:.5g} N/m, of the sealed muscle at rest", stiffness_));
-    const std::vector<double> others = unseen(law, s);
-    out.held_out = score(others, full_scale);
-    if (!held_out_.empty()) out.residuals.insert(out.residuals.end(), others.begin(), others.end());
-    return out;
+  // Fits the laws, or the one called `model`.
+  void fit(std::string_view model, Report& report) const {
+    std::vector<Candidate> candidates;
+    for (const Law& law : laws) {
+      Candidate c = candidate_of(law, fitted_, start_);
+      c.left_out = [this, &law](const Solution& whole) { return unseen(law, whole); };
+      if (law.scale == Scale::constant && law.dry)
+        c.notes.push_back(fmt::format("k = {:.5g} N/m, of the sealed muscle at rest", stiffness_));
+      candidates.push_back(std::move(c));
+    }
+    check_constraints(candidates);
+    fit_candidates(std::move(candidates),
+                   {.measured = measured_of(fitted_),
+                    .has_band = false,
+                    .shows_left_out = !held_out_.empty(),
+                    .model = model},
+                   report);
   }
 
   // Returns the samples in the order of the residuals.
@@ -208,19 +196,37 @@ class Dynamic {
     return parameters;
   }
 
-  Refit solve(const Law& law, const Which& which, const Start& start, double share = 1) const {
+  // Returns the number of samples up to this share of a record.
+  std::size_t samples_of(std::size_t record, double share) const {
+    const Swing& swing = swings_[record];
+    return share < 1 ? swing.samples_until(share) : swing.time.size();
+  }
+
+  std::vector<double> measured_of(const Which& which, double share = 1) const {
+    std::vector<double> out;
+    for (const std::size_t i : which) {
+      const auto from = swings_[i].length.begin();
+      out.insert(out.end(), from, from + static_cast<std::ptrdiff_t>(samples_of(i, share)));
+    }
+    return out;
+  }
+
+  Candidate candidate_of(const Law& law, const Which& which, const Start& start,
+                         double share = 1) const {
     std::vector<Part> parts;
-    for (const std::size_t i : which)
-      parts.push_back(
-          {&swings_[i], share < 1 ? swings_[i].samples_until(share) : swings_[i].time.size()});
-    const Trajectories trajectories(law, parts, stiffness_);
-    const FitProblem problem{.residuals = trajectories,
-                             .count = trajectories.size(),
-                             .parameters = parameters_of(law, which, start),
-                             .options = {.correlated = true},
-                             .constraints = constraints_};
-    return {problem, least_squares(problem.residuals, problem.count, problem.parameters,
-                                   constraints_, problem.options)};
+    for (const std::size_t i : which) parts.push_back({&swings_[i], samples_of(i, share)});
+    return {.model = law.name,
+            .law = law.law,
+            .source = law.source,
+            .parameters = parameters_of(law, which, start),
+            .predict = Trajectories(law, parts, stiffness_),
+            .options = {.correlated = true},
+            .constraints = constraints_,
+            .may_be_at_bounds = true};
+  }
+
+  Solution solved(const Law& law, const Which& which, const Start& start, double share = 1) const {
+    return solve(candidate_of(law, which, start, share), measured_of(which, share));
   }
 
   // Returns the residuals of data that are held out.
@@ -251,7 +257,7 @@ class Dynamic {
   Loss loss_without(const Law& law, const Solution& all, std::size_t left_out) const {
     Which which = fitted_;
     std::erase(which, left_out);
-    return loss_of(law, solve(law, which, start_at(law, all)).solution.values, stiffness_);
+    return loss_of(law, solved(law, which, start_at(law, all)).values, stiffness_);
   }
 
   static std::vector<double> residuals_of(const Swing& swing, const Loss& loss,
@@ -265,7 +271,7 @@ class Dynamic {
   // Predicts the last third from a fit to the first two thirds.
   std::vector<double> last_third(const Law& law, const Solution& all) const {
     constexpr double seen = 2.0 / 3;
-    const Solution s = solve(law, fitted_, start_at(law, all), seen).solution;
+    const Solution s = solved(law, fitted_, start_at(law, all), seen);
     const std::vector<double> r = residuals_of(swings_[0], loss_of(law, s.values, stiffness_),
                                                std::span(s.values).subspan(shared(law)));
     return {r.begin() + static_cast<std::ptrdiff_t>(swings_[0].samples_until(seen)), r.end()};
@@ -324,11 +330,7 @@ std::string held_out_is(std::span<const DecayRecord> records, bool marked) {
 
 }  // namespace
 
-std::vector<std::string> dynamic_models() {
-  std::vector<std::string> out;
-  for (const Law& law : laws) out.emplace_back(law.name);
-  return out;
-}
+std::vector<std::string> dynamic_models() { return names_of_laws(laws); }
 
 DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string_view model,
                                const Constraints& constraints) {
@@ -358,15 +360,10 @@ DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string
   }
   Dynamic dynamic(swings, records, constraints);
   dynamic.start_from(out.records);
-  dynamic.check_constraints();
-  std::vector<const Law*> tried;
-  for (const Law& law : laws)
-    if (model.empty() || model == law.name) tried.push_back(&law);
-  if (tried.empty()) throw std::invalid_argument(fmt::format("no model {}", model));
-  for (const Law* law : tried) report.fits.push_back(dynamic.fit(*law, report.full_scale));
+  dynamic.fit(model, report);
   report.rows = dynamic.rows();
   conclude(report);
-  out.loss = dynamic.loss(*tried[report.chosen], report.best());
+  out.loss = dynamic.loss(*std::ranges::find(laws, report.best().model, &Law::name), report.best());
   for (std::size_t i = 0; i < swings.size(); ++i)
     out.records[i].friction = swings[i].friction(out.loss);
   for (const Estimate& e : report.best().parameters)

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/identify/contest/constraint.h"
+#include "sinew/identify/contest/contest.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/pair/pair_law.h"
@@ -642,11 +642,7 @@ void add_separation_notes(const PairResult& found, Report& report) {
 
 }  // namespace
 
-std::vector<std::string> pair_models() {
-  std::vector<std::string> out;
-  for (const PairLaw& law : pair_laws()) out.emplace_back(law.name);
-  return out;
-}
+std::vector<std::string> pair_models() { return names_of_laws(pair_laws()); }
 
 PairResult identify_pair(std::span<const PairRecord> records, const PairOptions& options) {
   refuse_mixed(records);

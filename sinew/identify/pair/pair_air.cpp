@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "sinew/identify/contest/contest.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/data/series.h"
@@ -101,10 +102,10 @@ class TrappedAir {
     return slope_of(records_, m, rows) < 0 ? -1 : 1;
   }
 
-  // Writes predicted - measured pressure, muscle by muscle, at these rows.
-  void residuals(std::span<const double> p, const Selection& rows, std::span<const double> signs,
-                 std::vector<double>& out) {
-    out.clear();
+  // Writes the pressures, muscle by muscle, at these rows.
+  void predict(std::span<const double> p, const Selection& rows, std::span<const double> signs,
+               std::span<double> out) {
+    std::size_t at = 0;
     const double delay = p[common() - 1];
     for (std::size_t k = 0; k < records_.size(); ++k) {
       const PairRecord& r = records_[k];
@@ -113,9 +114,8 @@ class TrappedAir {
         const double s = signs[m] * p[law_.each ? m : 0], p0 = p[common() + k * muscles_ + m];
         const double leak = law_.leaks ? p[slopes() + m] : 0;
         for (const std::size_t i : rows[k])
-          out.push_back(
-              p0 * std::exp(s * (delayed_[k][i] - center_[k]) - leak * (r.time[i] - r.time[0])) -
-              r.pressure[m][i]);
+          out[at++] =
+              p0 * std::exp(s * (delayed_[k][i] - center_[k]) - leak * (r.time[i] - r.time[0]));
       }
     }
   }
@@ -136,46 +136,31 @@ std::vector<double> signs_of(const TrappedAir& air, const Selection& rows) {
   return out;
 }
 
-Refit solve_air(const TrappedAir& air, const Selection& rows, bool correlated,
-                const Constraints& constraints) {
-  std::vector<double> made;
-  FitProblem problem{.residuals = {},
-                     .count = 0,
-                     .parameters = air.parameters(rows),
-                     .options = {.correlated = correlated},
-                     .constraints = constraints};
-  problem.residuals = [own = air, rows, signs = signs_of(air, rows), made](
-                          std::span<const double> p, std::span<double> out) mutable {
-    own.residuals(p, rows, signs, made);
-    std::ranges::copy(made, out.begin());
+Candidate candidate_of(const AirLaw& law, Records records, const Selection& rows,
+                       const Constraints& constraints) {
+  TrappedAir air(law, records);
+  Candidate out{.model = law.name,
+                .law = law.law,
+                .source = "P V^n constant, to first order",
+                .parameters = air.parameters(rows),
+                .options = {.correlated = true},
+                .constraints = constraints,
+                .may_be_at_bounds = true};
+  out.predict = [air, rows, signs = signs_of(air, rows)](std::span<const double> p,
+                                                         std::span<double> values) mutable {
+    air.predict(p, rows, signs, values);
     return true;
   };
-  for (const PairRows& r : rows) problem.count += r.size() * air.muscles();
-  Solution s = least_squares(problem.residuals, problem.count, problem.parameters, constraints,
-                             problem.options);
-  return {std::move(problem), std::move(s)};
+  return out;
 }
 
-Fit fit_air(const AirLaw& law, Records records, const Selection& rows,
-            const Constraints& constraints, double full_scale) {
-  Fit out{.model = law.name, .law = law.law, .source = "P V^n constant, to first order"};
-  TrappedAir air(law, records);
-  const std::vector<double> signs = signs_of(air, rows);
-  out.refit = std::make_shared<Refit>(solve_air(air, rows, true, constraints));
-  out.parameters = out.refit->solution.estimates;
-  air.residuals(out.refit->solution.values, rows, signs, out.residuals);
-  out.fit = score(out.residuals, full_scale);
-  std::vector<double> unseen, some;
-  for (std::size_t k = 0; k < pair_blocks; ++k) {
-    Selection others, block;
-    for (const PairRows& r : rows) {
-      others.push_back(pair_block(r, k, false));
-      block.push_back(pair_block(r, k, true));
-    }
-    air.residuals(solve_air(air, others, false, constraints).solution.values, block, signs, some);
-    unseen.insert(unseen.end(), some.begin(), some.end());
-  }
-  out.cross_validated = score(unseen, full_scale);
+// Returns the block of time of each row.
+std::vector<int> blocks_of(Records records, const Selection& rows) {
+  std::vector<int> out;
+  for (std::size_t k = 0; k < records.size(); ++k)
+    for (std::size_t m = 0; m < records[k].pressure.size(); ++m)
+      for (std::size_t i = 0; i < rows[k].size(); ++i)
+        out.push_back(static_cast<int>(i * pair_blocks / rows[k].size()));
   return out;
 }
 
@@ -244,9 +229,15 @@ PairAir identify_pair_air(Records records, std::span<const PairRows> fitted,
   if (!(report.full_scale > 0))
     throw Refusal(records[0].file, "pressures that do not change",
                   "those of sealed muscles that are moved", "the columns");
-  for (const AirLaw& law : air_laws)
-    report.fits.push_back(fit_air(law, records, rows, constraints, report.full_scale));
   report.rows = rows_of(records, rows);
+  std::vector<Candidate> candidates;
+  for (const AirLaw& law : air_laws)
+    candidates.push_back(candidate_of(law, records, rows, constraints));
+  fit_candidates(candidates,
+                 {.measured = report.rows.measured,
+                  .splits = each_part_held_out(blocks_of(records, rows)),
+                  .cross_validates = true},
+                 report);
   conclude(report);
   read_off(records, rows, out);
   return out;

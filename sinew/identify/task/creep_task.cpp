@@ -10,8 +10,15 @@
 namespace sinew::identify {
 
 CreepFound find(const SourceList& sources, const CreepSettings& settings) {
-  return CreepFound(identify_creep(
+  CreepFound out(identify_creep(
       times_averaged(read_measured(only_of(sources), creep_columns()), 20000), settings.tried));
+  const CreepResult& result = out.result;
+  out.json["creep"] = {{"share", result.creep.share}, {"time_s", result.creep.time}};
+  const bool tried = std::ranges::any_of(result.report.fits, [](const Fit& fit) {
+    return std::ranges::find(fit.parameters, "half_width", &Estimate::name) != fit.parameters.end();
+  });
+  if (tried) out.json["hysteresis"] = {{"half_width_Pa", result.hysteresis.half_width}};
+  return out;
 }
 
 }  // namespace sinew::identify
