@@ -1,7 +1,9 @@
 // cli/recorded.cpp - pages, comparisons, tables and films of recorded runs: report, compare, export
 // and film.
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -9,7 +11,6 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "cli/interrupt.h"
 #include "cli/option_groups.h"
 #include "cli/terminal.h"
 #include "sinew/analysis/record/derived.h"
@@ -18,8 +19,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
 #include "sinew/experiment/globs.h"
-#include "sinew/film/film.h"
-#include "sinew/film/video.h"
+#include "sinew/files/shipped.h"
 #include "sinew/log/csv.h"
 #include "sinew/log/reader.h"
 #include "sinew/report/compare/comparison.h"
@@ -245,32 +245,60 @@ ExitCode export_run(const ExportOptions& options) {
 
 // --- film ---
 
-struct FilmCommandOptions : Flags {
+// python/sinew/_film.py checks the options and makes the film.
+struct FilmOptions : Flags {
   std::vector<std::string> runs;
   Alignment alignment;
   std::string machine, out, from, to;
-  film::FilmOptions film;
+  double speed = 1;
+  int width = 880, height = 470, frames_per_second = 25;
+  bool dark = false, still = false;
 };
 
-film::FilmOptions film_of(const FilmCommandOptions& options) {
-  film::FilmOptions out = options.film;
-  if (!options.from.empty()) out.from = config::quantity_setting("from", options.from, "s");
-  if (!options.to.empty()) out.to = config::quantity_setting("to", options.to, "s");
+std::string film_page(const FilmOptions& options, const run::Notices& notices) {
+  report::require_page("the film");
+  if (options.runs.size() > 1)
+    return report::page(run::compare_runs(options.runs, options.alignment.wish(), {}, notices));
+  return run::page_of(run::recorded_run(options.runs.front()), options.machine, notices);
+}
+
+std::vector<std::string> film_arguments(const FilmOptions& o) {
+  const fs::path script = files::shipped_folder() / "python/sinew/_film.py";
+  std::vector<std::string> out{"python3", script.string()};
+  const auto add = [&](const char* name, double value) {
+    out.push_back(fmt::format("--{}={}", name, value));
+  };
+  if (!o.from.empty()) add("start", config::quantity_setting("from", o.from, "s"));
+  if (!o.to.empty()) add("stop", config::quantity_setting("to", o.to, "s"));
+  add("speed", o.speed);
+  add("width", o.width);
+  add("height", o.height);
+  add("fps", o.frames_per_second);
+  if (o.dark) out.emplace_back("--dark");
+  if (o.still) out.emplace_back("--still");
+  if (o.quiet) out.emplace_back("--quiet");
+  out.insert(out.end(), {"--", o.out});
+  out.insert(out.end(), o.runs.begin(), o.runs.end());
   return out;
 }
 
-film::Filming filming_of(const FilmCommandOptions& options, const film::FilmOptions& film,
-                         const std::atomic<bool>& stop, const run::Notices& notices) {
-  if (options.runs.size() == 1) return {options.runs.front(), options.machine, film, stop, notices};
-  return {options.runs, options.alignment.wish(), film, stop, notices};
+// Continues as another program that reads the text.
+[[noreturn]] void continue_as(std::vector<std::string> arguments, const std::string& text) {
+  std::FILE* input = std::tmpfile();
+  if (!input || std::fwrite(text.data(), 1, text.size(), input) != text.size() ||
+      std::fflush(input) != 0 || ::dup2(::fileno(input), STDIN_FILENO) < 0)
+    throw std::system_error(errno, std::generic_category(), "a temporary file");
+  std::rewind(input);
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  ::execvp(pointers[0], pointers.data());
+  throw std::runtime_error(
+      "python3, which makes films, is not on the PATH; try apt-get install python3");
 }
 
-ExitCode make(const FilmCommandOptions& options) {
+ExitCode make(const FilmOptions& options) {
   const Messages messages(options.quiet);
-  const film::FilmOptions film = film_of(options);
-  // Errors of the options are reported before a browser starts.
-  const film::Kind kind = film::kind_of(options.out);
-  film::check(film, kind);
   const bool several = options.runs.size() > 1;
   if (const std::string given = options.alignment.given(); !several && !given.empty())
     config::fail({given, 0, 0}, "", "one run",
@@ -278,22 +306,11 @@ ExitCode make(const FilmCommandOptions& options) {
   if (several && !options.machine.empty())
     config::fail({"machine", 0, 0}, "", config::in_quotes(options.machine),
                  "no option: each of several runs has its own machine");
+  const std::vector<std::string> arguments = film_arguments(options);
   run::refuse_to_overwrite(options.out, options.force, {},
                            fs::path(options.out).extension().string());
   run::require_folder_of(options.out);
-  if (kind != film::Kind::gif) film::require_ffmpeg();
-
-  const Interrupt interrupt;
-  film::Filming filming = filming_of(options, film, interrupt.requested(), messages.notices());
-  std::atomic<std::int64_t> done{0};
-  {
-    const ProgressBar bar(done, filming.frames(), {.each = 1, .unit = "frames"}, options.quiet);
-    filming.make(options.out, done);
-  }
-  messages.note(fmt::format("{}, {} frames, {:.1f} s, {:.2f} MB", options.out, filming.frames(),
-                            static_cast<double>(filming.frames()) / film.frames_per_second,
-                            1e-6 * static_cast<double>(std::filesystem::file_size(options.out))));
-  return ok;
+  continue_as(arguments, film_page(options, messages.notices()));
 }
 
 }  // namespace
@@ -366,8 +383,7 @@ void add_film(CLI::App& app, Action& action) {
                  "sinew film runs/walk-test-1/1 -o walk.gif --from \"2 s\" --to "
                  "\"5 s\"\n  sinew film runs/walk-test-1/1 -o walk.mp4 --speed 0.25\n  sinew film "
                  "runs/elbow/1 measured -o both.mp4 --align correlation --clock fit");
-  FilmCommandOptions& options = runs(sub, action, make);
-  film::FilmOptions& film = options.film;
+  FilmOptions& options = runs(sub, action, make);
   sub.add_option("RUN", options.runs,
                  "folders of runs, or log files; the others are ghosts over the first")
       ->required()
@@ -375,12 +391,12 @@ void add_film(CLI::App& app, Action& action) {
   sub.add_option("-o,--output", options.out, "the file to write: .gif, .mp4 or .webm")->required();
   sub.add_option("--from", options.from, "\"2 s\" of the run; else its begin");
   sub.add_option("--to", options.to, "else the run's end");
-  sub.add_option("--speed", film.speed, "seconds of the run per second")->capture_default_str();
-  sub.add_option("--width", film.width, "pixels")->capture_default_str();
-  sub.add_option("--height", film.height, "pixels")->capture_default_str();
-  sub.add_option("--fps", film.frames_per_second, "frames per second")->capture_default_str();
-  sub.add_flag("--dark", film.dark, "light on dark");
-  sub.add_flag("--still", film.still, "the camera stands and shows the whole way");
+  sub.add_option("--speed", options.speed, "seconds of the run per second")->capture_default_str();
+  sub.add_option("--width", options.width, "pixels")->capture_default_str();
+  sub.add_option("--height", options.height, "pixels")->capture_default_str();
+  sub.add_option("--fps", options.frames_per_second, "frames per second")->capture_default_str();
+  sub.add_flag("--dark", options.dark, "light on dark");
+  sub.add_flag("--still", options.still, "the camera stands and shows the whole way");
   add_alignment(sub, options.alignment);
   add_machine(sub, options.machine);
   add_flags(sub, options, "replace the file", "");

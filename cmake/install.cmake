@@ -79,6 +79,7 @@ install(DIRECTORY robots experiments studies DESTINATION ${CMAKE_INSTALL_DATADIR
 # `sinew list examples` finds them there. Files that running an example leaves in its folder are excluded.
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew COMPONENT program
         PATTERN "__pycache__" EXCLUDE PATTERN "build" EXCLUDE PATTERN "runs" EXCLUDE)
+install(FILES python/sinew/_film.py DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew/python/sinew COMPONENT program)
 install(DIRECTORY data/templates DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew/data COMPONENT program)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT texts)

@@ -29,7 +29,6 @@ std::string_view sinew::report::comparison_template() { return {}; }
 std::string_view sinew::report::fit_template() { return {}; }
 std::string_view sinew::report::study_template() { return {}; }
 std::string_view sinew::report::run_list_template() { return {}; }
-std::string_view sinew::report::film_script() { return {}; }
 ")
   message(STATUS "web/: built without reports; tools/npm-ci.sh web brings them")
 endif()

@@ -61,7 +61,6 @@ const run = page_of('page.html', 'style.css', 'main.js', '@connect@');
 if (out.endsWith('.cpp'))
   writeFileSync(out, '// Made by web/build.mjs.\n#include "sinew/report/page/page.h"\n' +
     as_cpp('page_template', run) +
-    as_cpp('film_script', bundle('film.js')) +
     as_cpp('comparison_template', page_of('compare.html', 'compare.css', 'compare.js')) +
     as_cpp('fit_template', page_of('fit.html', 'style.css', 'fit.js')) +
     as_cpp('study_template', page_of('study.html', 'study.css', 'study.js', '@connect@')) +

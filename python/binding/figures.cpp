@@ -1,10 +1,13 @@
-// python/binding/figures.cpp - printable figures and films of kept runs.
+// python/binding/figures.cpp - printable figures of kept runs, and the pages of their films.
 #include <pybind11/stl.h>
 
 #include "python/binding/bind.h"
-#include "sinew/film/film.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/report/compare/comparison.h"
+#include "sinew/run/folder/compared.h"
 #include "sinew/run/folder/drawn_run.h"
 #include "sinew/run/folder/files.h"
+#include "sinew/run/folder/page.h"
 
 namespace sinew::python {
 
@@ -85,36 +88,25 @@ report::AlignOptions wish_of(const std::string& word, bool fit_clock) {
                         "\"; expected start, sequence, event or correlation");
 }
 
-int film(const py::object& runs, const py::object& path, const py::object& start,
-         const py::object& stop, double speed, int width, int height, int fps, bool dark,
-         bool still, const std::string& align, bool fit_clock, bool force) {
-  film::FilmOptions options{.speed = speed,
-                            .width = width,
-                            .height = height,
-                            .frames_per_second = fps,
-                            .dark = dark,
-                            .still = still};
-  options.from = time_of(start, options.from);
-  options.to = time_of(stop, options.to);
-  const Names of = runs_of(runs);
+std::string film_page(const Names& runs, const py::object& path, const std::string& align,
+                      bool fit_clock, bool force) {
+  if (runs.empty()) throw py::value_error("runs: found none; expected the folder of a run");
   const report::AlignOptions align_options = wish_of(align, fit_clock);
-  if (of.size() == 1 && (align_options.by != report::Align::start || fit_clock))
+  if (runs.size() == 1 && (align_options.by != report::Align::start || fit_clock))
     throw py::value_error(
         "align: found one run; expected several, which are aligned with each other");
   const std::string file = path_of(path);
-  film::check(options, film::kind_of(file));
   run::refuse_to_overwrite(file, force, {}, std::filesystem::path(file).extension().string());
   run::require_folder_of(file);
-  std::atomic<bool> interrupted{false};
-  int frames = 0;
-  do_interruptibly(interrupted, [&] {
-    std::atomic<std::int64_t> done{0};
-    film::Filming filming = of.size() == 1 ? film::Filming(of[0], "", options, interrupted)
-                                           : film::Filming(of, align_options, options, interrupted);
-    filming.make(file, done);
-    frames = filming.frames();
-  });
-  return frames;
+  const py::gil_scoped_release unlocked;
+  report::require_page("the film");
+  return runs.size() == 1 ? run::page_of(run::recorded_run(runs[0]), "")
+                          : report::page(run::compare_runs(runs, align_options));
+}
+
+[[noreturn]] void refuse(const std::string& name, const std::string& found,
+                         const std::string& expected, const std::string& try_this) {
+  config::fail({name, 0, 0}, "", found, expected, try_this);
 }
 
 }  // namespace
@@ -139,21 +131,9 @@ void bind_figures(py::module_& m) {
       "pt\";\n"
       "`units` is si, thesis, metric or metric,length=cm; `start` and `stop` are in s. Returns\n"
       "the content of index.json, with `warnings`. Raises InputError.");
-  m.def(
-      "film", &film, py::arg("runs"), py::arg("path"), py::kw_only(), py::arg("start") = py::none(),
-      py::arg("stop") = py::none(), py::arg("speed") = 1.0, py::arg("width") = 880,
-      py::arg("height") = 470, py::arg("fps") = 25, py::arg("dark") = false,
-      py::arg("still") = false, py::arg("align") = "start", py::arg("fit_clock") = false,
-      py::arg("force") = false,
-      "Makes a film of the replay of a run that is kept, or of several over each other, the "
-      "others\n"
-      "as ghosts over the first: .gif, .mp4 or .webm. `align` aligns these with the first run: "
-      "start,\n"
-      "sequence, event or correlation; `fit_clock` takes out their clocks' rates. Chromium draws\n"
-      "its frames, ffmpeg makes MP4 and WebM of them. `start` and `stop` are in s of the run; "
-      "`speed`\n"
-      "is how many of its seconds one of the film shows; `still` lets the camera stand. Returns\n"
-      "the number of frames. Raises InputError, and RuntimeError where a program is missing.");
+  m.def("film_page", &film_page, "Returns the page whose replay a film of these runs shows.");
+  m.def("refuse", &refuse, py::arg("name"), py::arg("found"), py::arg("expected"),
+        py::arg("try_this") = "", "Raises InputError.");
 }
 
 }  // namespace sinew::python

@@ -36,7 +36,6 @@ from sinew._sinew import (
     import_recording,
     in_units,
     figures,
-    film,
     key_schema,
     keys,
     list_files,
@@ -52,6 +51,7 @@ from sinew._sinew import (
     tune,
 )
 from sinew._sinew import version as __version__
+from sinew._film import film
 from sinew._shipped import shipped
 from sinew._pandas import to_pandas
 from sinew._parts import Part, Robot

@@ -1,7 +1,7 @@
 """The library of Sinew."""
 
 import os
-from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterator, List, Mapping, NoReturn, Optional, Sequence, Tuple, Union
 
 import numpy
 import numpy.typing
@@ -308,22 +308,8 @@ def figures(
     stop: Optional[_Number] = None,
     force: bool = False,
 ) -> Dict[str, Any]: ...
-def film(
-    runs: Union[_Path, Sequence[_Path]],
-    path: _Path,
-    *,
-    start: Optional[_Number] = None,
-    stop: Optional[_Number] = None,
-    speed: _Number = 1.0,
-    width: int = 880,
-    height: int = 470,
-    fps: int = 25,
-    dark: bool = False,
-    still: bool = False,
-    align: str = "start",
-    fit_clock: bool = False,
-    force: bool = False,
-) -> int: ...
+def film_page(runs: Sequence[str], path: _Path, align: str, fit_clock: bool, force: bool, /) -> str: ...
+def refuse(name: str, found: str, expected: str, try_this: str = "") -> NoReturn: ...
 def migrate(path: _Path, *, folder: Optional[_Path] = None, write: bool = True) -> Dict[str, Any]: ...
 def keys(*words: str, kind: str = "") -> List[Dict[str, Any]]: ...
 def key_schema(kind: str) -> Dict[str, Any]: ...

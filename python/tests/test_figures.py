@@ -1,5 +1,6 @@
 """Printable figures and films of kept runs."""
 
+import math
 import os
 import shutil
 import struct
@@ -10,6 +11,7 @@ from typing import List
 
 import sinew
 from common import Refusals
+from sinew._film import Options, Refusal, check
 
 
 def missing_for_films() -> str:
@@ -97,6 +99,28 @@ class Figures(Refusals):
         with self.assertRaisesRegex(ValueError, "found none"):
             sinew.film([], out / "walk.gif")
         self.assertFalse(os.path.exists(out))
+
+    def test_a_film_is_refused_by_the_name_of_what_is_wrong(self) -> None:
+        def refusal(file: str, **options: float) -> str:
+            try:
+                check(file, Options()._replace(**options))
+            except Refusal as why:
+                return str(why)
+            return ""
+
+        for file in ("a/walk.gif", "walk.mp4", "walk.webm"):
+            self.assertEqual(refusal(file), "")
+        for file in ("walk.avi", "walk", "walk.gif.txt"):
+            self.assertRegex(refusal(file), f'^output: found "{file}"; expected .*.gif, .mp4 or .webm')
+        self.assertRegex(refusal("a.gif", start=3, stop=2), "^from: found 3 s; expected a time before")
+        self.assertRegex(refusal("a.gif", width=10), "^width: found 10; expected 100 to 3840 pixels")
+        self.assertRegex(refusal("a.gif", height=100000), "^height: ")
+        self.assertRegex(refusal("a.gif", fps=60), "^fps: found 60; expected 1 to 50")
+        self.assertEqual(refusal("a.mp4", fps=60), "")
+        self.assertRegex(refusal("a.mp4", width=881), "even number of pixels")
+        self.assertEqual(refusal("a.gif", width=881), "")
+        for speed in (0.0, -1.0, 1e9, math.nan):
+            self.assertRegex(refusal("a.gif", speed=speed), "^speed: ")
 
     @unittest.skipIf(missing_for_films(), missing_for_films())
     def test_a_film_is_a_gif_of_so_many_frames(self) -> None:

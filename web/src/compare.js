@@ -1,6 +1,7 @@
 // Page that compares several runs: each channel of all runs in one plot, differences, and tables.
 import { Charts } from './charts.js';
 import { Machines } from './compare_scene.js';
+import './film.js';
 import { ComparisonTables, differ, judged_differently } from './compare_tables.js';
 import { button, by_id, chip, on_click, start_page } from './page.js';
 import { Plan } from './plan.js';

@@ -1,5 +1,5 @@
-// Film of a run, or of several runs over each other. `sinew film` runs this script in the page and requests
-// one frame after the other, each as base64. The content of a frame depends only on its time.
+// Film of a run, or of several runs over each other. python/sinew/_film.py requests one frame after the other from
+// the page, each as base64. The content of a frame depends only on its time.
 import { GIFEncoder, applyPalette, quantize } from 'gifenc';
 
 function base64(bytes) {
@@ -10,13 +10,14 @@ function base64(bytes) {
 
 class Film {
   // `size` in pixels; `still`: the camera does not follow the machine; `speed` is written into the picture
-  // if it is not 1.
-  constructor({ size, dark, still, speed }) {
+  // if it is not 1; `bare`: nothing is written into it.
+  constructor({ size, dark, still, speed, bare = false }) {
     const { page } = window.sinew;
     this.page = page;
     this.machines = page.machines;  // of several runs
     this.scene = page.scene ?? page.machines.first;
     this.speed = speed;
+    this.bare = bare;
     [this.width, this.height] = size;
     page.appearance.set_theme(dark ? 'dark' : 'light');
     this.scene.follow = !still;
@@ -35,6 +36,7 @@ class Film {
     ctx.fillStyle = theme.paper;
     ctx.fillRect(0, 0, this.width, this.height);
     ctx.drawImage(scene.canvas, 0, 0, this.width, this.height);
+    if (this.bare) return;
     ctx.textBaseline = 'top';
     ctx.fillStyle = theme.ink;
     ctx.font = `600 15px ${theme.sans}`;
@@ -110,6 +112,12 @@ class Film {
 window.sinew_span = () => {
   const { run, page } = window.sinew;
   return run ? [run.phases.stretches[0]?.from ?? 0, run.duration] : page.whole;
+};
+
+// Returns the indices of the runs that can be drawn.
+window.sinew_drawn = () => {
+  const { machines, scene } = window.sinew.page;
+  return machines ? machines.drawn : scene ? [0] : [];
 };
 
 window.sinew_film = (options) => {

@@ -2,6 +2,7 @@
 import { pressure_gradient } from './colors.js';
 import { Charts } from './charts.js';
 import { Live } from './live.js';
+import './film.js';
 import { Marks } from './marks.js';
 import { by_id, chip, element, start_page } from './page.js';
 import { Player } from './player.js';

@@ -61,7 +61,4 @@ std::string_view fit_template();         // an identification
 std::string_view study_template();       // a sweep or a tuning, or two of them
 std::string_view run_list_template();    // the runs in a folder
 
-// Returns the script that makes a film of a run's page when it runs in the page; empty as above.
-std::string_view film_script();
-
 }  // namespace sinew::report
