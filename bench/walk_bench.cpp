@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/peers/experiments.h"
-#include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/world/machine.h"
 

@@ -1,11 +1,8 @@
 // cli/figures.cpp - `sinew figures`: figures for print, of runs, of muscles or of the thesis.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -205,12 +202,7 @@ ExitCode draw_thesis(const FiguresOptions& request) {
                                  flag(request.json),
                                  flag(request.quiet)};
   for (const report::Picture picture : files.pictures) words.emplace_back(report::ending(picture));
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  std::fflush(stdout);
-  execv(program.c_str(), arguments.data());
-  throw std::runtime_error(program + ": " + std::strerror(errno));
+  host::continue_as(words, program + ": cannot be started");
 }
 
 }  // namespace

@@ -159,14 +159,6 @@ struct MigrateCommandOptions {
   bool dry_run = false, json = false;
 };
 
-Json json_of(const files::Migration& m) {
-  Json out{{"file", m.file}, {"was", m.was}, {"is", m.is}, {"changes", m.changes}};
-  if (!m.written.empty()) out["written"] = m.written;
-  if (!m.kept.empty()) out["kept"] = m.kept;
-  if (!m.reason.empty()) out["reason"] = m.reason;
-  return out;
-}
-
 // One file's failure does not keep the others from being migrated.
 ExitCode migrate_all(const MigrateCommandOptions& options) {
   bool good = true;
@@ -174,7 +166,7 @@ ExitCode migrate_all(const MigrateCommandOptions& options) {
   for (const std::string& file : options.files) {
     try {
       const files::Migration done = files::migrate(file, options.how);
-      report.push_back(json_of(done));
+      report.push_back(files::json_of(done));
       if (!options.json) fmt::print("{}", files::text_of(done));
     } catch (const std::exception& e) {
       good = false;
@@ -193,8 +185,7 @@ void add_new(CLI::App& app, Action& action) {
   CLI::App& sub = subcommand(app, "new", "a commented file to begin with, valid as written",
                              "sinew new robot my-arm --metric");
   NewCommandOptions& options = runs(sub, action, write);
-  std::vector<std::string> kinds;
-  for (const std::string_view kind : files::new_kinds()) kinds.emplace_back(kind);
+  const std::vector<std::string> kinds(files::new_kinds().begin(), files::new_kinds().end());
   sub.add_option("KIND", options.kind, "what it describes")->required()->check(one_of(kinds));
   sub.add_option("NAME", options.name,
                  "its name; a robot and a rig become a folder NAME, any other a file NAME.toml")
@@ -214,8 +205,7 @@ void add_list(CLI::App& app, Action& action) {
       subcommand(app, "list", "robots, experiments and more: with Sinew and in this folder",
                  "sinew list experiments");
   ListOptions& options = runs(sub, action, list);
-  std::vector<std::string> kinds;
-  for (const std::string_view kind : files::listed_kinds()) kinds.emplace_back(kind);
+  const std::vector<std::string> kinds(files::listed_kinds().begin(), files::listed_kinds().end());
   sub.add_option("KIND", options.kind, "one kind alone; else all")->check(one_of(kinds));
   sub.add_flag("--json", options.json, "as JSON");
 }

@@ -261,18 +261,18 @@ void add_firmware(CLI::App& app, Action& action) {
   group.require_subcommand();
   CLI::App& made = subcommand(group, "build", "does the robot fit on the board, and its program",
                               "sinew firmware build robots/leg/robot.toml stm32f405 -o leg.elf");
-  made.add_option("ROBOT", o->robot, "file of the robot")->required();
-  made.add_option("BOARD", o->board, names_of_boards())->required();
-  made.add_option("-o,--output", o->out, "FILE.elf, FILE.hex or FILE.bin")->required();
+  const auto add = [&](CLI::App& sub, const char* files) {
+    sub.add_option("ROBOT", o->robot, "file of the robot")->required();
+    sub.add_option("BOARD", o->board, names_of_boards())->required();
+    sub.add_option("-o,--output", o->out, files)->required();
+    sub.add_flag("--force", o->force, "replace the file");
+  };
+  add(made, "FILE.elf, FILE.hex or FILE.bin");
   made.add_option("--sources", o->sources, "folder of Sinew's sources; else this one");
-  made.add_flag("--force", o->force, "replace the file");
   made.callback([=, &action] { action = [=] { return build(*o); }; });
   CLI::App& drawn = subcommand(group, "wiring", "which wire goes to which pin, as a picture",
                                "sinew firmware wiring robots/leg/robot.toml teensy41 -o leg.svg");
-  drawn.add_option("ROBOT", o->robot, "file of the robot")->required();
-  drawn.add_option("BOARD", o->board, names_of_boards())->required();
-  drawn.add_option("-o,--output", o->out, "FILE.svg")->required();
-  drawn.add_flag("--force", o->force, "replace the file");
+  add(drawn, "FILE.svg");
   drawn.callback([=, &action] { action = [=] { return wiring(*o); }; });
   CLI::App& flash = subcommand(group, "flash", "shows the command that brings a file onto a board",
                                "sinew firmware flash stm32f405 leg.elf");

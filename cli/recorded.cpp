@@ -1,9 +1,7 @@
 // cli/recorded.cpp - pages, comparisons, tables and films of recorded runs: report, compare, export
 // and film.
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -20,6 +18,7 @@
 #include "sinew/config/setting.h"
 #include "sinew/experiment/globs.h"
 #include "sinew/files/shipped.h"
+#include "sinew/host/module.h"
 #include "sinew/log/csv.h"
 #include "sinew/log/reader.h"
 #include "sinew/report/compare/comparison.h"
@@ -251,7 +250,7 @@ struct FilmOptions : Flags {
   Alignment alignment;
   std::string machine, out, from, to;
   double speed = 1;
-  int width = 880, height = 470, frames_per_second = 25;
+  int width = 880, height = 470, fps = 25;
   bool dark = false, still = false;
 };
 
@@ -273,28 +272,13 @@ std::vector<std::string> film_arguments(const FilmOptions& o) {
   add("speed", o.speed);
   add("width", o.width);
   add("height", o.height);
-  add("fps", o.frames_per_second);
-  if (o.dark) out.emplace_back("--dark");
-  if (o.still) out.emplace_back("--still");
-  if (o.quiet) out.emplace_back("--quiet");
+  add("fps", o.fps);
+  for (const auto& [name, is_set] :
+       {std::pair{"--dark", o.dark}, {"--still", o.still}, {"--quiet", o.quiet}})
+    if (is_set) out.emplace_back(name);
   out.insert(out.end(), {"--", o.out});
   out.insert(out.end(), o.runs.begin(), o.runs.end());
   return out;
-}
-
-// Continues as another program that reads the text.
-[[noreturn]] void continue_as(std::vector<std::string> arguments, const std::string& text) {
-  std::FILE* input = std::tmpfile();
-  if (!input || std::fwrite(text.data(), 1, text.size(), input) != text.size() ||
-      std::fflush(input) != 0 || ::dup2(::fileno(input), STDIN_FILENO) < 0)
-    throw std::system_error(errno, std::generic_category(), "a temporary file");
-  std::rewind(input);
-  std::vector<char*> pointers;
-  for (std::string& argument : arguments) pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-  ::execvp(pointers[0], pointers.data());
-  throw std::runtime_error(
-      "python3, which makes films, is not on the PATH; try apt-get install python3");
 }
 
 ExitCode make(const FilmOptions& options) {
@@ -310,7 +294,9 @@ ExitCode make(const FilmOptions& options) {
   run::refuse_to_overwrite(options.out, options.force, {},
                            fs::path(options.out).extension().string());
   run::require_folder_of(options.out);
-  continue_as(arguments, film_page(options, messages.notices()));
+  host::continue_as(arguments,
+                    "python3, which makes films, is not on the PATH; try apt-get install python3",
+                    film_page(options, messages.notices()));
 }
 
 }  // namespace
@@ -394,7 +380,7 @@ void add_film(CLI::App& app, Action& action) {
   sub.add_option("--speed", options.speed, "seconds of the run per second")->capture_default_str();
   sub.add_option("--width", options.width, "pixels")->capture_default_str();
   sub.add_option("--height", options.height, "pixels")->capture_default_str();
-  sub.add_option("--fps", options.frames_per_second, "frames per second")->capture_default_str();
+  sub.add_option("--fps", options.fps, "frames per second")->capture_default_str();
   sub.add_flag("--dark", options.dark, "light on dark");
   sub.add_flag("--still", options.still, "the camera stands and shows the whole way");
   add_alignment(sub, options.alignment);

@@ -33,7 +33,6 @@
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/run_log.h"
 #include "sinew/run/folder/run_storage.h"
-#include "sinew/run/folder/runnable.h"
 #include "sinew/run/folder/verdict_text.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/units/shown.h"
@@ -59,30 +58,29 @@ struct RunOptions {
   bool json = false, quiet = false;
 };
 
-void note_page(const std::filesystem::path& folder, const Messages& messages) {
-  messages.note(fmt::format("to see it, open {}", (folder / run::report_name).string()));
+// Prints verdicts or summary.json to stdout, and the place of the run, after `done`, to stderr.
+void print_stored(const run::StoredRun& kept, bool json, const units::ShownUnits* shown,
+                  const std::string& done, const Messages& messages) {
+  if (json)
+    fmt::print("{}", kept.json);
+  else
+    print_verdicts(kept.summary, kept.machine, shown);
+  messages.note((json ? "" : done) + kept.folder.string());
+  if (kept.page)
+    messages.note(fmt::format("to see it, open {}", (kept.folder / run::report_name).string()));
 }
 
-// Prints verdicts or summary.json to stdout, and the place of the run to stderr.
 void tell(const run::StoredRun& kept, const RunOptions& options, const Messages& messages) {
-  if (options.json) {
-    fmt::print("{}", kept.json);
-    messages.note(kept.folder.string());
-  } else {
-    const config::UnitsToShow units =
-        chosen_units(options.run.units, units::UnitSet::si, kept.folder / run::resolved_name);
-    print_verdicts(kept.summary, kept.machine, units.is_requested ? &units.units : nullptr);
-    messages.note(fmt::format("{:.2f} s in {:.3f} s, kept in {}", kept.duration, kept.wall,
-                              kept.folder.string()));
-  }
-  if (kept.page) note_page(kept.folder, messages);
+  const config::UnitsToShow units =
+      chosen_units(options.run.units, units::UnitSet::si, kept.folder / run::resolved_name);
+  print_stored(kept, options.json, units.is_requested ? &units.units : nullptr,
+               fmt::format("{:.2f} s in {:.3f} s, kept in ", kept.duration, kept.wall), messages);
 }
 
 // Runs the experiment, with its log where there is one.
 run::Outcome run_logged(const RunOptions& options, run::RunStorage& kept, Interrupt& interrupt) {
   std::atomic<std::int64_t> tick{0};
-  run::RunOptions run_options{
-      .pace = options.pace, .progress = &tick, .stop = &interrupt.requested()};
+  run::RunOptions run_options{.pace = options.pace, .progress = &tick};
   kept.apply(run_options);
   std::optional<SpaceBar> space_bar;
   if (run::is_outside_simulation(options.run.port)) space_bar.emplace([&] { interrupt.request(); });
@@ -119,6 +117,14 @@ std::string a_pace(const std::string& text) {
   return fmt::format("found \"{}\"; expected 0, or a number from {} on", text, slowest);
 }
 
+// Adds --output, --force and --set of a command that makes a run of an experiment.
+template <class Request>
+void add_folder(CLI::App& sub, Request& request) {
+  sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");
+  sub.add_flag("--force", request.force, "replace the run that is in the folder");
+  add_sets(sub, request.sets);
+}
+
 void add_run_options(CLI::App& sub, const std::string& port, RunOptions& options) {
   run::RunRequest& request = options.run;
   sub.add_option(port, request.port,
@@ -127,9 +133,7 @@ void add_run_options(CLI::App& sub, const std::string& port, RunOptions& options
       ->transform(passes(run::problem_of_place));
   sub.add_flag("--clear-fault", request.clear_fault,
                "a board that dumped by itself, or whose watchdog has bitten, was looked into");
-  sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");
-  sub.add_flag("--force", request.force, "replace the run that is in the folder");
-  add_sets(sub, request.sets);
+  add_folder(sub, request);
   sub.add_flag("--allow-unreachable", request.allow_unreachable,
                "aim at the nearest point where the foot path is out of reach");
   sub.add_flag("!--no-report", request.report, "leave report.html out");
@@ -290,12 +294,7 @@ run::StoredRun import_out_dat(const ImportOptions& options, const Messages& mess
 ExitCode tell_kept(const run::StoredRun& kept, const ImportOptions& options,
                    const Messages& messages) {
   for (const std::string& text : kept.summary.warnings) messages.warning(text);
-  if (options.json)
-    fmt::print("{}", kept.json);
-  else
-    print_verdicts(kept.summary, kept.machine);
-  messages.note(kept.folder.string());
-  if (kept.page) note_page(kept.folder, messages);
+  print_stored(kept, options.json, nullptr, "", messages);
   return ok;
 }
 
@@ -349,9 +348,9 @@ void add_clock_options(CLI::App& sub, ImportOptions& options) {
 
 // --- analyze ---
 
-struct AnalyzeOptions {
+struct AnalyzeOptions : Flags {
   std::string run, machine, out, units;
-  bool json = false, verdicts = false, force = false, quiet = false;
+  bool verdicts = false;
 };
 
 // The source reports whole runs, so a part of a run has no verdict.
@@ -470,9 +469,7 @@ void add_import(CLI::App& app, Action& action) {
       ->required();
   add_mapping_options(sub, options);
   add_clock_options(sub, options);
-  sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");
-  sub.add_flag("--force", request.force, "replace the run that is in the folder");
-  add_sets(sub, request.sets);
+  add_folder(sub, request);
   add_flags(sub, options, "", "print summary.json");
 }
 
@@ -483,12 +480,10 @@ void add_analyze(CLI::App& app, Action& action) {
   sub.add_option("DIR", options.run, "a run's folder, or a log file")->required();
   add_machine(sub, options.machine);
   sub.add_option("-o,--output", options.out, "also write the summary to this file");
-  sub.add_flag("--force", options.force, "replace that file");
-  CLI::Option* json = sub.add_flag("--json", options.json, "print the summary as JSON");
+  add_flags(sub, options, "replace that file", "print the summary as JSON");
   sub.add_flag("--verdicts", options.verdicts, "print what is reported, with verdicts, as JSON")
-      ->excludes(json);
+      ->excludes(sub.get_option("--json"));
   add_units(sub, options.units, "of what is printed, else the source's own; --json is in SI");
-  sub.add_flag("--quiet", options.quiet, "only errors on stderr");
 }
 
 }  // namespace sinew::cli

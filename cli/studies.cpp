@@ -18,7 +18,6 @@
 #include "sinew/host/side_by_side.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/tune/mpi/work.h"
-#include "sinew/tune/optimizer/candidate_file.h"
 #include "sinew/tune/optimizer/optimize.h"
 #include "sinew/tune/optimizer/tuned_text.h"
 #include "sinew/tune/results/results.h"

@@ -7,7 +7,7 @@
 #include "bench/peers/experiments.h"
 #include "bench/peers/pow_muscle.h"
 #include "sinew/air/network.h"
-#include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 
 namespace sinew::bench {
 

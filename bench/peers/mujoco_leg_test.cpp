@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/peers/experiments.h"
-#include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 #include "sinew/world/machine.h"
 
 namespace sinew::bench {

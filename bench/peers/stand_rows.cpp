@@ -14,7 +14,7 @@
 #include "bench/peers/pair.h"
 #include "bench/peers/stand_peers.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/run/setup/stand_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 #include "sinew/units/constants.h"
 #include "sinew/world/stand.h"
 

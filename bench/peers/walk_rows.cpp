@@ -11,7 +11,7 @@
 #include "bench/peers/experiments.h"
 #include "bench/peers/mujoco_leg.h"
 #include "bench/peers/pair.h"
-#include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 #include "sinew/run/simulation/lanes.h"
 #include "sinew/units/constants.h"
 #include "sinew/world/machine.h"

@@ -21,7 +21,7 @@
 #include "sinew/host/module.h"
 #include "sinew/run/muscle/muscle_setup.h"
 #include "sinew/run/setup/buildable.h"
-#include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 
 namespace sinew::fmu {
 

@@ -7,7 +7,7 @@
 #include "python/binding/bind.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/utf8.h"
-#include "sinew/log/error.h"
+#include "sinew/log/file.h"
 #include "sinew/port/comedi/comedi_port.h"
 #include "sinew/port/hardware/remote_board.h"
 

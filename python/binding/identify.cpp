@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "python/binding/numbers.h"
-#include "sinew/host/stop.h"
+#include "sinew/host/side_by_side.h"
 #include "sinew/identify/actuator/static.h"
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/check/check.h"

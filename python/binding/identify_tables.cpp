@@ -7,7 +7,7 @@
 
 #include "python/binding/recording.h"
 #include "python/binding/settings.h"
-#include "sinew/host/stop.h"
+#include "sinew/host/side_by_side.h"
 #include "sinew/identify/task/inputs.h"
 #include "sinew/identify/task/methods.h"
 #include "sinew/identify/task/tables.h"

@@ -50,7 +50,7 @@ void run_kept(const run::RunRequest& request, std::atomic<bool>& stop, Recording
   stopped_by_python.stop = &stop;
   run::RunStorage kept(stopped_by_python,
                        {.on_warning = [&](std::string_view text) { warnings.emplace_back(text); }});
-  run::RunOptions options{.stop = &stop};
+  run::RunOptions options;
   kept.apply(options);
   out.board = kept.place().who();
   for (const std::string& line : kept.place().messages()) warnings.push_back(line);

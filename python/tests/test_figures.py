@@ -7,7 +7,7 @@ import struct
 import tempfile
 import unittest
 from pathlib import Path
-from typing import List
+from typing import Any, List
 
 import sinew
 from common import Refusals
@@ -101,9 +101,9 @@ class Figures(Refusals):
         self.assertFalse(os.path.exists(out))
 
     def test_a_film_is_refused_by_the_name_of_what_is_wrong(self) -> None:
-        def refusal(file: str, **options: float) -> str:
+        def refusal(file: str, **options: Any) -> str:
             try:
-                check(file, Options()._replace(**options))
+                check(file, Options(**options))
             except Refusal as why:
                 return str(why)
             return ""

@@ -336,10 +336,7 @@ class Findings {
   }
   template <class Items>
   void need(const std::string& key, const std::string& name, const Items& items) {
-    const std::vector<std::string_view> names = config::names_of(items);
-    if (std::ranges::count(names, name) > 0) return;
-    add(key, config::in_quotes(name), config::either(names),
-        config::closest_in_quotes(name, names));
+    experiment::need(key, name, items, out_);
   }
   std::vector<robot::Contradiction>& list() { return out_; }
 
@@ -414,8 +411,8 @@ void check_load(const Experiment& e, Findings& out) {
              "a charge that is not regulated");
 }
 
-// Checks lengths: no clamp reaches further than the stand permits (run/setup/stand_setup.h), and at
-// a length without volume of air there would be no pressure.
+// Checks lengths: no clamp reaches further than the stand permits (run/setup/machine_setup.h), and
+// at a length without volume of air there would be no pressure.
 void check_volumes(const Experiment& e, Findings& out) {
   const auto check = [&](const std::string& key, double length) {
     for (const actuator::Actuator& a : e.actuators) {

@@ -178,6 +178,20 @@ void fields(Visitor& v, PulseTable& p) {
             p.opening);
 }
 
+template <class Visitor>
+void air_of_machine(Visitor& v, Experiment& e) {
+  v.group({.name = "air", .doc = "atmosphere and supply"},
+          [&](auto& g) { gas::fields(g, e.air, e.supply); });
+}
+
+template <class Visitor>
+void pulses_of_machine(Visitor& v, Experiment& e) {
+  v.group({.name = "pulses",
+           .optional = true,
+           .doc = "low_level.valve_timing as numbers, in a resolved file"},
+          [&](auto& g) { fields(g, e.pulses); });
+}
+
 // Visits the machine's keys. These come before the plan's, whose tables are named after its joints.
 template <class Visitor>
 void machine_fields(Visitor& v, Experiment& e) {
@@ -192,13 +206,8 @@ void machine_fields(Visitor& v, Experiment& e) {
     gas::fields(v, e.valves);
     robot::fields(v, e.wiring);
   }
-  v.group({.name = "air", .doc = "atmosphere and supply"},
-          [&](auto& g) { gas::fields(g, e.air, e.supply); });
-  if (e.stand) return;
-  v.group({.name = "pulses",
-           .optional = true,
-           .doc = "low_level.valve_timing as numbers, in a resolved file"},
-          [&](auto& g) { fields(g, e.pulses); });
+  air_of_machine(v, e);
+  if (!e.stand) pulses_of_machine(v, e);
 }
 
 // Visits the keys of the machine that a file of that kind contains.

@@ -120,7 +120,6 @@ std::optional<FaultPart> part_of(const Fault& fault, const std::vector<FaultPart
 
 namespace {
 
-using What = Fault::What;
 using List = std::vector<robot::Contradiction>;
 
 constexpr double widest_seat = 1e-5;  // [m^2]

@@ -20,19 +20,8 @@ template <class Visitor>
 void robot_tables(Visitor& v) {
   experiment::Experiment e;
   robot::fields(v, e.robot);
-  v.group({.name = "air", .doc = "atmosphere and supply"},
-          [&](auto& g) { gas::fields(g, e.air, e.supply); });
-  v.group({.name = "pulses",
-           .optional = true,
-           .doc = "low_level.valve_timing as numbers, in a resolved file"},
-          [&](auto& g) { experiment::fields(g, e.pulses); });
-}
-
-// Visits the tables of a resolved file about a run that was recorded elsewhere.
-template <class Visitor>
-void imported_tables(Visitor& v) {
-  std::vector<experiment::ImportedFile> imported;
-  experiment::fields(v, imported);
+  experiment::air_of_machine(v, e);
+  experiment::pulses_of_machine(v, e);
 }
 
 // Visits the keys of an experiment that describe its run, on a test stand or with a robot. Names of
@@ -43,10 +32,9 @@ void experiment_tables(Visitor& v, bool on_stand) {
   if (on_stand) e.stand.emplace();
   e.plan.joints = {{.name = "<name>"}};
   experiment::run_fields(v, e);
-  if (on_stand)
-    v.group({.name = "air", .doc = "atmosphere and supply"},
-            [&](auto& g) { gas::fields(g, e.air, e.supply); });
-  imported_tables(v);
+  if (on_stand) experiment::air_of_machine(v, e);
+  std::vector<experiment::ImportedFile> imported;
+  experiment::fields(v, imported);
 }
 
 // Visits the tables that only this kind of file has.

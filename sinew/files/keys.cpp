@@ -176,29 +176,30 @@ struct KeyVariants {
       if (!same(at(k, path), at(0, path))) return true;
     return false;
   }
+  // Returns the values with which the path's key is accepted: `kind = "angle" or "velocity"`.
+  template <class Accepts>
+  std::string values_with(const std::string& path, const Accepts& accepts) const {
+    std::string out;
+    for (std::size_t k = 0; k < listings.size(); ++k) {
+      if (!accepts(at(k, path))) continue;
+      const std::string& condition = of.values[k].condition;
+      const std::size_t word = condition.find('"');
+      out += out.empty() || word == condition.npos ? condition : " or " + condition.substr(word);
+    }
+    return out;
+  }
   // Returns the values with which the path has this key: `kind = "angle" or "velocity"`.
   std::string condition_of(const std::string& path, const Key* key) const {
-    return condition([&](std::size_t k) { return same(at(k, path), key); });
+    return values_with(path, [&](const Key* one) { return same(one, key); });
   }
   // Returns the values with which the path exists; empty: all of them.
   std::string presence_condition(const std::string& path) const {
-    const auto exists = [&](std::size_t k) { return at(k, path) != nullptr; };
-    for (std::size_t k = 0; k < listings.size(); ++k)
-      if (!exists(k)) return condition(exists);
-    return "";
-  }
-
- private:
-  template <class Holds>
-  std::string condition(const Holds& holds) const {
-    std::string out;
-    for (std::size_t k = 0; k < listings.size(); ++k) {
-      if (!holds(k)) continue;
-      const std::string& text = of.values[k].condition;
-      const std::size_t word = text.find('"');
-      out += out.empty() || word == text.npos ? text : " or " + text.substr(word);
-    }
-    return out;
+    bool always = true;
+    const std::string out = values_with(path, [&](const Key* one) {
+      always = always && one != nullptr;
+      return one != nullptr;
+    });
+    return always ? "" : out;
   }
 };
 
@@ -290,10 +291,8 @@ std::vector<Key> composed(std::string_view kind) {
   const auto text = [&](std::string path, std::string doc, bool required = false) {
     return text_key(kind, std::move(path), std::move(doc), required);
   };
-  const Key files{.kind = std::string(kind),
-                  .path = "files",
-                  .type = KeyType::table,
-                  .doc = "other files, relative to this one"};
+  Key files = text("files", "other files, relative to this one");
+  files.type = KeyType::table;
   const Key actuator = text("files.actuator", "an actuator file, or a list of them");
   const Key valves = text("files.valves", "valves file"), gains = text("files.gains", "gain*.dat");
   const Key version = text("sinew_version", "that ran, in a resolved file");

@@ -8,7 +8,7 @@
 #include "sinew/config/migrate.h"
 #include "sinew/config/text_file.h"
 #include "sinew/config/valve_timing.h"
-#include "sinew/log/replacement.h"
+#include "sinew/run/folder/files.h"
 
 namespace sinew::files {
 
@@ -58,21 +58,15 @@ void choose_places(const fs::path& file, const MigrateOptions& options, Migratio
   out.kept = kept.string();
 }
 
-void write_file(const fs::path& file, std::string_view text) {
-  log::Replacement whole(file);
-  whole.write(text);
-  whole.commit();
-}
-
 // Saves the old file before the new one replaces it.
 void write(const std::string& old_text, const std::string& text, const Migration& m) {
   if (m.kept.empty()) {
     fs::create_directories(fs::path(m.written).parent_path());
   } else {
-    write_file(m.kept, old_text);
+    run::write_file(m.kept, old_text);
     fs::permissions(m.kept, fs::status(m.file).permissions());
   }
-  write_file(m.written, text);
+  run::write_file(m.written, text);
 }
 
 }  // namespace
@@ -103,6 +97,14 @@ std::string text_of(const Migration& m) {
   const std::string to = m.written == m.file ? "" : " in " + m.written;
   const std::string old = m.kept.empty() ? "" : "; the old one is " + m.kept;
   return out + fmt::format("{}: is {} now{}{}\n", m.file, m.is, to, old);
+}
+
+Json json_of(const Migration& m) {
+  Json out{{"file", m.file}, {"was", m.was}, {"is", m.is}, {"changes", m.changes}};
+  if (!m.written.empty()) out["written"] = m.written;
+  if (!m.kept.empty()) out["kept"] = m.kept;
+  if (!m.reason.empty()) out["reason"] = m.reason;
+  return out;
 }
 
 }  // namespace sinew::files

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "sinew/json/json.h"
+
 namespace sinew::files {
 
 struct MigrateOptions {
@@ -30,5 +32,8 @@ Migration migrate(const std::string& path, const MigrateOptions& options = {});
 
 // Returns lines of text: the changes, then what was done with the file.
 std::string text_of(const Migration& migration);
+
+// Returns the same as a JSON object.
+Json json_of(const Migration& migration);
 
 }  // namespace sinew::files

@@ -20,7 +20,8 @@
 #include "sinew/experiment/machine_file.h"
 #include "sinew/files/check.h"
 #include "sinew/files/shipped.h"
-#include "sinew/log/replacement.h"
+#include "sinew/run/folder/files.h"
+#include "sinew/run/folder/output_folder.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::files {
@@ -385,15 +386,6 @@ std::vector<Draft> drafts(const std::string& kind, const std::string& name,
   return out;
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code bad;
-  if (!folder.empty()) fs::create_directories(folder, bad);
-  if (bad)
-    config::fail({folder.string(), 0, 0}, "",
-                 fmt::format("no folder, and none can be made: {}", bad.message()),
-                 "a folder that can be written");
-}
-
 }  // namespace
 
 std::span<const std::string_view> new_kinds() { return kinds_of_files; }
@@ -408,10 +400,8 @@ NewFiles write_new(const std::string& kind, const std::string& name, const NewOp
                    "a name that is free", "another name, or to take it away");
   NewFiles out;
   for (const Draft& one : all) {
-    make_folder(one.file.parent_path());
-    log::Replacement whole(one.file);
-    whole.write(one.text);
-    whole.commit();
+    if (one.file.has_parent_path()) run::make_folders(one.file.parent_path());
+    run::write_file(one.file, one.text);
     out.files.push_back(one.file.string());
   }
   out.problems = check(out.files[0]).problems;

@@ -13,7 +13,7 @@
 #include "sinew/json/json.h"
 #include "sinew/recording/mapping.fields.h"
 #include "sinew/report/text/text_table.h"
-#include "sinew/run/folder/runnable.h"
+#include "sinew/run/folder/run_storage.h"
 
 namespace sinew::files {
 

@@ -91,8 +91,6 @@ double limit_of(const fs::path& root, const std::string& name) {
   return 0;
 }
 
-namespace fs = std::filesystem;
-
 namespace {
 
 using Findings = std::vector<Finding>;

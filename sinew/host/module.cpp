@@ -1,9 +1,12 @@
 #include "sinew/host/module.h"
 
 #include <dlfcn.h>
+#include <unistd.h>
 
-#include <filesystem>
-#include <vector>
+#include <cerrno>
+#include <cstdio>
+#include <stdexcept>
+#include <system_error>
 
 namespace sinew::host {
 
@@ -48,5 +51,22 @@ void* open_module(const char* file) {
 }
 
 void* function_of(void* module, const char* name) { return dlsym(module, name); }
+
+void continue_as(std::vector<std::string> words, const std::string& if_missing,
+                 const std::string& input) {
+  if (!input.empty()) {
+    std::FILE* file = std::tmpfile();
+    if (!file || std::fwrite(input.data(), 1, input.size(), file) != input.size() ||
+        std::fflush(file) != 0 || ::dup2(::fileno(file), STDIN_FILENO) < 0)
+      throw std::system_error(errno, std::generic_category(), "a temporary file");
+    std::rewind(file);
+  }
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  std::fflush(stdout);
+  ::execvp(arguments[0], arguments.data());
+  throw std::runtime_error(if_missing);
+}
 
 }  // namespace sinew::host

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <exception>
 #include <thread>
+#include <utility>
 #include <vector>
-
-#include "sinew/host/stop.h"
 
 namespace sinew::host {
 
@@ -41,5 +40,13 @@ void side_by_side(std::size_t count, const std::function<void(std::size_t)>& wor
   for (const std::exception_ptr& error : failed)
     if (error) std::rethrow_exception(error);
 }
+
+namespace {
+thread_local const std::atomic<bool>* current = nullptr;
+}  // namespace
+
+Stoppable::Stoppable(const std::atomic<bool>* stop) : before_(std::exchange(current, stop)) {}
+Stoppable::~Stoppable() { current = before_; }
+const std::atomic<bool>* Stoppable::flag() { return current; }
 
 }  // namespace sinew::host

@@ -16,7 +16,7 @@
 #include "sinew/report/page/page.h"
 #include "sinew/run/controllers/columns.h"
 #include "sinew/run/folder/page.h"
-#include "sinew/run/folder/runnable.h"
+#include "sinew/run/folder/run_storage.h"
 
 namespace sinew::live {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "sinew/analysis/record/machine.h"
-#include "sinew/live/port.h"
+#include "sinew/live/server.h"
 #include "sinew/run/folder/run_storage.h"
 
 namespace sinew::live {

@@ -1,5 +1,4 @@
 // Ports of a server: the same one for the same folder, another one while it is taken.
-#include "sinew/live/port.h"
 
 #include <gtest/gtest.h>
 

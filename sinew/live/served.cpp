@@ -172,8 +172,6 @@ Reply RunsPages::compared(std::string_view numbers) const {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 Served of_studies(const std::vector<fs::path>& files, run::Notices notices) {
   auto pages = std::make_shared<StudyPages>(files, std::move(notices));
   std::string names = files.front().string();
@@ -181,10 +179,6 @@ Served of_studies(const std::vector<fs::path>& files, run::Notices notices) {
   return {.get = [pages](std::string_view path) { return pages->get(path); },
           .description = [names](const std::string&) { return names + "; Ctrl-C ends"; }};
 }
-
-}  // namespace
-
-namespace {
 
 Served of_runs(std::shared_ptr<RunsPages> pages) {
   return {.get = [pages](std::string_view path) { return pages->get(path); },

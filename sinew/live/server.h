@@ -13,15 +13,25 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "sinew/live/port.h"
-
 namespace sinew::live {
+
+// Port of a server on 127.0.0.1. A browser stores the settings of a page by address and port, so a
+// page keeps them only if its port stays: folder_port() gives each folder its own.
+struct Port {
+  std::uint16_t number = 0;  // 0: a free one
+  bool or_free = false;      // use a free one if the number is taken; otherwise that is an error
+};
+
+// Returns the port of a folder, the same each time, or a free one while another program uses it. It
+// is below the range of ephemeral ports.
+Port folder_port(const std::filesystem::path& folder);
 
 // Reply to a request over HTTP.
 struct Reply {

@@ -69,17 +69,6 @@ namespace {
 constexpr auto moment = std::chrono::milliseconds(1500);
 constexpr std::ptrdiff_t most_at_once = 4;
 
-std::filesystem::path run_and_store(const tune::StudyRun& run, const std::atomic<bool>& stop) {
-  const run::RunRequest request{.experiment = run.experiment,
-                                .folder = "",
-                                .sets = run.sets,
-                                .allow_unreachable = run.allow_unreachable};
-  run::RunStorage kept(request);
-  run::RunOptions options{.stop = &stop};
-  kept.apply(options);
-  return kept.store(run::run(kept.experiment(), options)).folder;
-}
-
 bool goes(const std::shared_future<std::filesystem::path>& run) {
   return run.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
 }
@@ -93,8 +82,13 @@ bool RowRuns::is_busy() {
 }
 
 void RowRuns::begin(std::size_t row, const tune::StudyRun& run) {
-  runs_[row] =
-      std::async(std::launch::async, [this, run] { return run_and_store(run, stop_); }).share();
+  const run::RunRequest request{.experiment = run.experiment,
+                                .sets = run.sets,
+                                .allow_unreachable = run.allow_unreachable,
+                                .stop = &stop_};
+  runs_[row] = std::async(std::launch::async, [request] {
+                 return run::run_and_store(request).folder;
+               }).share();
 }
 
 std::optional<std::filesystem::path> RowRuns::folder(std::size_t row) {

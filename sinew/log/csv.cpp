@@ -23,18 +23,11 @@ bool is_chosen(const std::string& topic, const std::vector<std::string>& chosen)
   });
 }
 
-std::string quoted_if_needed(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
-  return quoted + '"';
-}
-
 std::string heading(const signals::Topic& topic, const signals::Field& field) {
   std::string text = topic.name;
   if (topic.fields.size() > 1 || field.name != "value") text += "." + field.name;
   if (!field.unit.empty()) text += " [" + field.unit + "]";
-  return quoted_if_needed(text);
+  return csv_cell(text);
 }
 
 // Position in a series while rows are written.
@@ -114,6 +107,13 @@ void put_lines(const signals::Table& table, const std::vector<std::string>& topi
 }
 
 }  // namespace
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + '"';
+}
 
 void write_csv(const signals::Table& table, std::ostream& out,
                const std::vector<std::string>& topics) {

@@ -16,10 +16,13 @@
 #include <string>
 #include <vector>
 
-#include "sinew/log/error.h"
+#include "sinew/log/file.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::log {
+
+// Returns the text of a cell, in quotes where necessary.
+std::string csv_cell(const std::string& text);
 
 // Writes the table. `topics` selects these topics and all below them ("/muscle/hip_flexor",
 // "/true"); empty selects all.

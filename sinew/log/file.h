@@ -1,13 +1,22 @@
-// log/file.h - memory-mapped input file, append-only output file, and names that a log's writer and
-// reader share.
+// log/file.h - memory-mapped input file, append-only output file, locks, and names that a log's
+// writer and reader share.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
 namespace sinew::log {
+
+// Error of a log's reader or writer, and of other files that are written: file, reason and advice.
+class Error : public std::runtime_error {
+ public:
+  // Sets what() to "file: reason; advice".
+  Error(const std::filesystem::path& file, const std::string& reason, const std::string& advice)
+      : std::runtime_error(file.string() + ": " + reason + "; " + advice) {}
+};
 
 // Maps a whole file without copying it, so that a log of an hour needs no memory of its own.
 class Mapping {
@@ -90,5 +99,15 @@ inline constexpr std::string_view kUnit = "unit.";
 // Metadata key of a topic whose value never changes and is written once: holds the topic whose
 // times it has.
 inline constexpr std::string_view kSteady = "sinew.steady";
+
+// --- locks of files and folders: one writing process at a time ---
+
+// Locks the open file or folder (flock) until the descriptor is closed, at the latest when its
+// process ends. Returns "" if the lock was taken, else its holder: "process 4711". On a file system
+// without locks it always succeeds.
+std::string lock(int descriptor);
+
+// Waits until the lock is free.
+void wait_for_lock(int descriptor);
 
 }  // namespace sinew::log

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "sinew/log/error.h"
+#include "sinew/log/file.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::log {

@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "sinew/log/file.h"
-#include "sinew/log/lock.h"
 
 namespace sinew::log {
 namespace {

@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-#include "sinew/log/error.h"
+#include "sinew/log/file.h"
 
 namespace sinew::log {
 

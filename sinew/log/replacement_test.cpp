@@ -8,8 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "sinew/log/file.h"
 #include "sinew/log/fixtures_test.h"
-#include "sinew/log/lock.h"
 #include "sinew/log/reader.h"
 #include "sinew/log/writer.h"
 

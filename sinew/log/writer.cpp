@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "sinew/json/json.h"
-#include "sinew/log/error.h"
 #include "sinew/log/file.h"
 #include "sinew/log/mcap.h"
 #include "sinew/log/message.h"

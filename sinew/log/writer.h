@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "sinew/log/error.h"
+#include "sinew/log/file.h"
 #include "sinew/log/steady.h"
 #include "sinew/signals/ring.h"
 #include "sinew/signals/table.h"

@@ -7,7 +7,6 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
-#include "sinew/tune/refuse.h"
 
 namespace sinew::tune {
 namespace {
@@ -107,12 +106,6 @@ void add_range(Axis& axis, std::string_view text, std::string_view setting) {
 }
 
 }  // namespace
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  return text;
-}
 
 std::vector<std::string_view> list_of(std::string_view text) {
   std::vector<std::string_view> out;

@@ -10,6 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+
 namespace sinew::tune {
 
 struct Value {
@@ -41,8 +44,7 @@ Axis seeds(int n);
 // Splits a list at its commas, except those within brackets and quotes; trims its parts.
 std::vector<std::string_view> list_of(std::string_view text);
 
-// Returns the text without the blanks around it.
-std::string_view trimmed(std::string_view text);
+using config::trimmed;
 
 // All combinations of the axes' values; the last axis varies fastest.
 class Grid {
@@ -57,5 +59,12 @@ class Grid {
  private:
   const std::vector<Axis>* axes_;
 };
+
+// Throws config::Error about `text`, the value of `setting`, with what is expected and an example.
+[[noreturn]] inline void refuse(std::string_view setting, std::string_view text,
+                                std::string expected, std::string try_this = "") {
+  config::fail({std::string(setting), 0, 0}, "", config::in_quotes(text), std::move(expected),
+               std::move(try_this));
+}
 
 }  // namespace sinew::tune

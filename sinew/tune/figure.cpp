@@ -8,7 +8,6 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/tune/axis.h"
-#include "sinew/tune/refuse.h"
 
 namespace sinew::tune {
 namespace {

@@ -9,7 +9,6 @@
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/lanes.h"
 #include "sinew/run/simulation/run.h"
-#include "sinew/tune/run_many.h"
 #include "sinew/tune/sweep.h"
 
 namespace sinew::tune {

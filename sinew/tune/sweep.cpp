@@ -10,7 +10,6 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/host/side_by_side.h"
-#include "sinew/tune/run_many.h"
 
 namespace sinew::tune {
 
@@ -184,8 +183,8 @@ Row row_of(const Sweep& s, const Points& points, std::size_t index, bool first) 
 // Runs the points that next() returns, until it returns none, many in parallel, and passes their
 // rows to done(). A search runs by itself, since each run depends on the one before.
 template <class Next, class Done>
-void run_points(const Sweep& s, const Points& points, int lanes, const Next& next,
-                const Done& done) {
+void run_in_thread(const Sweep& s, const Points& points, int lanes, const Next& next,
+                   const Done& done) {
   if (s.largest) {
     while (const std::optional<std::size_t> index = next()) done(row_of(s, points, *index, false));
     return;
@@ -203,13 +202,34 @@ void run_points(const Sweep& s, const Points& points, int lanes, const Next& nex
       {.next = wanted, .done = result, .allow_unreachable = s.allow_unreachable, .lanes = lanes});
 }
 
+// Runs these points on threads and passes their rows to done(), one at a time. Begins no further
+// one once it is stopped.
+void run_points(const Sweep& s, const Points& points, std::span<const std::size_t> numbers,
+                const Options& how, const std::function<void(Row)>& done) {
+  std::atomic<std::size_t> taken{0};
+  std::mutex mutex;
+  const auto next = [&]() -> std::optional<std::size_t> {
+    const std::size_t i = how.stop && how.stop->load() ? numbers.size() : taken++;
+    if (i >= numbers.size()) return {};
+    return numbers[i];
+  };
+  const auto hand_back = [&](Row row) {
+    const std::lock_guard lock(mutex);
+    done(std::move(row));
+  };
+  host::side_by_side(
+      std::min(static_cast<std::size_t>(how.threads), numbers.size()),
+      [&](std::size_t) { run_in_thread(s, points, how.lanes, next, hand_back); }, nullptr,
+      how.threads);
+}
+
 // --- all points ---
 
-// Hands out points to the threads, and rows in their order.
+// The rows of a sweep, in their order.
 class Work {
  public:
   Work(const Sweep& s, const Options& options)
-      : sweep_(s), points_(s), options_(options), rows_(points(s)), next_(0) {
+      : sweep_(s), points_(s), options_(options), rows_(points(s)) {
     for (const Row& row : options.known)
       if (options.share.has(row.point)) rows_.at(row.point) = row;
     for (std::size_t i = options.share.i - 1; i < rows_.size(); i += options.share.n)
@@ -219,28 +239,19 @@ class Work {
           static_cast<std::int64_t>(options.share.size(rows_.size()) - to_do_.size());
   }
 
-  std::size_t to_do() const { return to_do_.size(); }
-  bool has_dispatcher() const { return static_cast<bool>(options_.dispatch); }
-
   // Runs the first point in the caller's thread, which throws its refusal.
   void first() {
     if (!to_do_.empty()) done(row_of(sweep_, points_, to_do_[next_++], true));
   }
 
-  void run_next() noexcept {
-    const auto next = [this]() -> std::optional<std::size_t> {
-      const std::size_t i = stopped() ? to_do_.size() : next_++;
-      if (i >= to_do_.size()) return {};
-      return to_do_[i];
-    };
-    run_points(sweep_, points_, options_.lanes, next, [this](Row row) { done(std::move(row)); });
-  }
-
-  void go_on_elsewhere() {
-    std::vector<std::size_t> points(to_do_.begin() + static_cast<std::ptrdiff_t>(next_.load()),
-                                    to_do_.end());
-    if (!points.empty() && !stopped())
-      options_.dispatch(points, [this](Row row) { done(std::move(row)); });
+  // Runs the others, here or elsewhere.
+  void others() {
+    const auto points = std::span<const std::size_t>(to_do_).subspan(next_);
+    const auto take = [this](Row row) { done(std::move(row)); };
+    if (!options_.dispatch)
+      run_points(sweep_, points_, points, options_, take);
+    else if (!points.empty() && !(options_.stop && options_.stop->load()))
+      options_.dispatch(points, take);
   }
 
   // Returns all completed rows, including those after a gap if it was stopped.
@@ -255,9 +266,7 @@ class Work {
   }
 
  private:
-  bool stopped() const { return options_.stop && options_.stop->load(); }
   void done(Row row) {
-    const std::lock_guard lock(mutex_);
     const std::size_t index = row.point;
     if (options_.done) options_.done(row);
     rows_[index] = std::move(row);
@@ -272,9 +281,8 @@ class Work {
   const Options& options_;
   std::vector<std::optional<Row>> rows_;
   std::vector<std::size_t> to_do_;  // points of the share that are not known
-  std::atomic<std::size_t> next_;   // index in to_do_
+  std::size_t next_ = 0;            // index in to_do_
   std::size_t reported_ = 0;        // points whose rows were passed to Options::row
-  std::mutex mutex_;
 };
 
 }  // namespace
@@ -331,12 +339,7 @@ std::vector<Row> sweep(const Sweep& s, const Options& options) {
   if (!options.checked) check(s);
   Work work(s, options);
   if (!options.checked) work.first();
-  if (work.has_dispatcher())
-    work.go_on_elsewhere();
-  else
-    host::side_by_side(
-        std::min(static_cast<std::size_t>(options.threads), work.to_do()),
-        [&work](std::size_t) { work.run_next(); }, nullptr, options.threads);
+  work.others();
   return work.finish();
 }
 
@@ -352,22 +355,7 @@ Runner::~Runner() = default;
 
 void Runner::run(std::span<const std::size_t> points, int threads,
                  const std::function<void(Row)>& done) const {
-  std::atomic<std::size_t> taken{0};
-  std::mutex mutex;
-  const auto next = [&]() -> std::optional<std::size_t> {
-    const std::size_t i = taken++;
-    if (i >= points.size()) return {};
-    return points[i];
-  };
-  const auto hand_back = [&](Row row) {
-    const std::lock_guard lock(mutex);
-    done(std::move(row));
-  };
-  const auto work = [&](std::size_t) {
-    run_points(drawn_->sweep, drawn_->points, Options{}.lanes, next, hand_back);
-  };
-  host::side_by_side(std::min(static_cast<std::size_t>(threads), points.size()), work, nullptr,
-                     threads);
+  run_points(drawn_->sweep, drawn_->points, points, {.threads = threads}, done);
 }
 
 }  // namespace sinew::tune

@@ -7,6 +7,7 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/json/json.h"
+#include "sinew/log/csv.h"
 #include "sinew/run/folder/files.h"
 
 namespace sinew::tune {
@@ -24,16 +25,8 @@ Json json_cell(const std::string& cell) {
 
 std::string csv_line(const std::vector<std::string>& cells) {
   std::string out;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i > 0) out += ',';
-    if (cells[i].find_first_of(",\"\r\n") == std::string::npos) {
-      out += cells[i];
-      continue;
-    }
-    out += '"';
-    for (const char c : cells[i]) out.append(c == '"' ? 2 : 1, c);
-    out += '"';
-  }
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    out += (i > 0 ? "," : "") + log::csv_cell(cells[i]);
   return out + "\n";
 }
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/world/driven/driven_muscle.h"
 #include "sinew/world/machine.h"

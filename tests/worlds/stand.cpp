@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/run/setup/stand_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/world/stand.h"
 #include "tests/places.h"

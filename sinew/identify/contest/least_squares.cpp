@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "sinew/host/stop.h"
+#include "sinew/host/side_by_side.h"
 #include "sinew/identify/contest/matrix.h"
 #include "sinew/identify/contest/refusal.h"
 

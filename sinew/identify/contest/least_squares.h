@@ -107,9 +107,10 @@ struct Solution {
   const Estimate& operator[](std::string_view name) const;  // throws std::out_of_range
 };
 
-// Minimises the residuals. Throws host::Stopped if the calling thread is stopped (host/stop.h)
-// during the search, std::invalid_argument if the start is outside the bounds, and Refusal if
-// there are fewer residuals than parameters or the model is undefined at the start.
+// Minimises the residuals. Throws host::Stopped if the calling thread is stopped
+// (host/side_by_side.h) during the search, std::invalid_argument if the start is outside the
+// bounds, and Refusal if there are fewer residuals than parameters or the model is undefined at the
+// start.
 Solution least_squares(const Residuals& residuals, std::size_t count,
                        std::span<const Parameter> parameters, const SolverOptions& options = {});
 

@@ -8,7 +8,6 @@
 #include <random>
 
 #include "sinew/host/side_by_side.h"
-#include "sinew/host/stop.h"
 #include "sinew/identify/contest/fit.h"
 #include "sinew/identify/contest/refusal.h"
 

@@ -12,7 +12,7 @@
 #include "sinew/robot/legs.h"
 #include "sinew/run/controllers/boards.h"
 #include "sinew/run/setup/installation.h"
-#include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 #include "sinew/run/simulation/valve_commands.h"
 #include "sinew/world/machine.h"
 

@@ -172,6 +172,7 @@ Status ComediPort::start(const signals::Scan&) noexcept {
   started_ = true;
   stopped_ = vented_ = false;
   coils_ = 0;
+  why_ = Why::nothing;
   venting_since_ = dead_ = -1;
   std::ranges::fill(bad_in_a_row_, 0);
   watch_the_vent(0);

@@ -16,7 +16,6 @@
 #include "sinew/json/json.h"
 #include "sinew/robot/robot.h"
 #include "sinew/run/bring_up/muscles.h"
-#include "sinew/run/bring_up/strokes.h"
 #include "sinew/run/bring_up/trial.h"
 #include "sinew/run/bring_up/wires.h"
 #include "sinew/run/folder/files.h"
@@ -186,9 +185,8 @@ struct Rest {
   double mean = 0, deviation = 0;  // [count]
   int readings = 0, bad = 0;       // bad: late or invalid
 };
-// Returns the statistics of a channel's readings while nothing moves.
-Rest rest_of(const Recording& recording, std::size_t channel);
 
+// Returns the statistics of a channel's readings while nothing moves.
 Rest rest_of(const Recording& r, std::size_t channel) {
   Rest out;
   for (const Sample& s : r.samples) {
@@ -232,13 +230,9 @@ std::string wrong_with(const robot::Sensor& s, const Rest& rest,
   return "";
 }
 
-}  // namespace
-
 namespace fs = std::filesystem;
 
-// --- the steps ----------------------------------------------------------------------------------
-
-namespace {
+// --- the steps ---
 
 struct Result {
   std::vector<std::string> wrong;  // empty: the step is done

@@ -9,7 +9,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/control/setup/boards.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/run/bring_up/strokes.h"
+#include "sinew/run/bring_up/muscles.h"
 #include "sinew/run/bring_up/trial.h"
 #include "sinew/run/simulation/remote_boards.h"
 #include "sinew/run/simulation/test_board.h"

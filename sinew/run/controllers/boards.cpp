@@ -174,11 +174,11 @@ void Boards::shut_down(Tick t) noexcept {
 ControllerTotals Boards::controller_totals() const {
   ControllerTotals out;
   out.phase = state().phase;
+  out.overruns = state().overruns();
   for (const Board& b : boards_) {
     const control::ControllerState& its = b.state();
     out.late += its.late;
     out.invalid += its.invalid;
-    out.overruns += its.overruns;
     out.missed = std::max(out.missed, its.missed);
   }
   const Board& ended = boards_[static_cast<std::size_t>(std::max(state_.ended_by, 0))];
@@ -193,11 +193,11 @@ SupervisedTotals Boards::supervised_totals() const {
   SupervisedTotals out;
   const MachineState now = state();
   for (std::size_t s = 0; s < sensor_.size(); ++s) out.sensor.push_back(now.supervised(s));
+  out.rejected_commands = now.rejected_commands();
+  out.gaps = now.gaps();
   for (const Board& b : boards_) {
     const control::Supervised& its = b.supervised();
     out.rejected += its.rejected;
-    out.rejected_commands += its.rejected_commands;
-    out.gaps = std::max(out.gaps, its.gaps);
     out.worst_gap = std::max(out.worst_gap, its.worst_gap);
   }
   const auto ended = static_cast<std::size_t>(std::max(state_.ended_by, 0));

@@ -90,13 +90,11 @@ void HighLevel::restore(const State& state) noexcept {
   legs_.restore(state.legs);
   changes_.restore(state.changes);
   desired_ = state.desired;
-  measured_ = state.measured;
   command_ = state.command;
 }
 
 const MachineCommand& HighLevel::update(const MachineState& state, signals::Tick t) noexcept {
-  measured_ = measure(state);
-  legs_.update(measured_, t / gait_period_ticks_);
+  legs_.update(measure(state), t / gait_period_ticks_);
   for (std::size_t l = 0; l < legs_.count(); ++l) desired_[l] = legs_.desired(l);
   changes_.apply(t, {desired_.data(), legs_.count()});
   for (std::size_t l = 0; l < legs_.count(); ++l) translate(desired_[l], legs_.parts(l));

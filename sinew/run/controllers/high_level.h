@@ -46,10 +46,6 @@ class HighLevel {
     return {desired_.data(), legs_.count()};
   }
   const Changes& changes() const noexcept { return changes_; }
-  const gait::MachineMeasured& measured() const noexcept { return measured_; }
-  double newtons_per_count(std::size_t muscle) const noexcept {
-    return scale_.newtons_per_count[muscle];
-  }
 
   // Returns the measured values for the gait controller, by the assumed scales.
   gait::MachineMeasured measure(const MachineState& state) const noexcept;
@@ -67,12 +63,9 @@ class HighLevel {
     gait::Legs::State legs;
     Changes::State changes;
     std::array<gait::Desired, robot::max_legs> desired;
-    gait::MachineMeasured measured;
     MachineCommand command;
   };
-  State state() const noexcept {
-    return {legs_.state(), changes_.state(), desired_, measured_, command_};
-  }
+  State state() const noexcept { return {legs_.state(), changes_.state(), desired_, command_}; }
   void restore(const State& state) noexcept;
 
  private:
@@ -88,7 +81,6 @@ class HighLevel {
   gait::Legs legs_;
   Changes changes_;
   std::array<gait::Desired, robot::max_legs> desired_;  // one per leg
-  gait::MachineMeasured measured_;
   MachineCommand command_;
 };
 

@@ -8,15 +8,27 @@
 namespace sinew::run {
 namespace {
 
+using T = plant::Truth;
+
+// Adds a column of a true value of the robot, or of an element of one of its arrays.
+void truth(Columns& out, std::string name, std::string unit, std::string description,
+           double T::*value) {
+  out.scalar(std::move(name), std::move(unit), std::move(description),
+             [value](const Snapshot& m) { return m.true_of->robot.*value; });
+}
+template <class Array>
+void truth(Columns& out, std::string name, std::string unit, std::string description,
+           Array T::*values, std::size_t i) {
+  out.scalar(std::move(name), std::move(unit), std::move(description),
+             [values, i](const Snapshot& m) { return (m.true_of->robot.*values)[i]; });
+}
+
 void true_joint_columns(const robot::Robot& robot, Columns& out) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     const std::string at = "/true" + robot::topic_of_joint(robot, j);
-    out.scalar(at + "/angle", "rad", "of the simulated joint",
-               [j](const Snapshot& m) { return m.true_of->robot.angle[j]; });
-    out.scalar(at + "/velocity", "rad/s", "of the simulated joint",
-               [j](const Snapshot& m) { return m.true_of->robot.rate[j]; });
-    out.scalar(at + "/torque", "N m", "of its muscles",
-               [j](const Snapshot& m) { return m.true_of->robot.torque[j]; });
+    truth(out, at + "/angle", "rad", "of the simulated joint", &T::angle, j);
+    truth(out, at + "/velocity", "rad/s", "of the simulated joint", &T::rate, j);
+    truth(out, at + "/torque", "N m", "of its muscles", &T::torque, j);
   }
 }
 
@@ -33,21 +45,15 @@ void true_muscle_columns(const experiment::Experiment& e, Columns& out) {
   const robot::Robot& robot = e.robot;
   for (std::size_t i = 0; i < robot.muscles.size(); ++i) {
     const std::string at = "/true" + robot::topic_of_muscle(robot, i);
-    out.scalar(at + "/tension", "N", "in the tendon",
-               [i](const Snapshot& m) { return m.true_of->robot.tension[i]; });
-    out.scalar(at + "/pressure", "Pa", "absolute",
-               [i](const Snapshot& m) { return m.true_of->robot.pressure[i]; });
-    out.scalar(at + "/length", "m", "of the actuators",
-               [i](const Snapshot& m) { return m.true_of->robot.length[i]; });
-    out.scalar(at + "/mass", "kg", "of the air in the bundle",
-               [i](const Snapshot& m) { return m.true_of->robot.mass[i]; });
-    out.scalar(at + "/air_in", "kg", "from the supply since the start",
-               [i](const Snapshot& m) { return m.true_of->robot.air_in[i]; });
-    out.scalar(at + "/air_out", "kg", "to the atmosphere since the start",
-               [i](const Snapshot& m) { return m.true_of->robot.air_out[i]; });
+    truth(out, at + "/tension", "N", "in the tendon", &T::tension, i);
+    truth(out, at + "/pressure", "Pa", "absolute", &T::pressure, i);
+    truth(out, at + "/length", "m", "of the actuators", &T::length, i);
+    truth(out, at + "/mass", "kg", "of the air in the bundle", &T::mass, i);
+    truth(out, at + "/air_in", "kg", "from the supply since the start", &T::air_in, i);
+    truth(out, at + "/air_out", "kg", "to the atmosphere since the start", &T::air_out, i);
     if (leaks(e, robot.muscles[i]))
-      out.scalar(at + "/air_leaked", "kg", "to the atmosphere, past the valves, since the start",
-                 [i](const Snapshot& m) { return m.true_of->robot.air_leaked[i]; });
+      truth(out, at + "/air_leaked", "kg", "to the atmosphere, past the valves, since the start",
+            &T::air_leaked, i);
   }
 }
 
@@ -60,23 +66,22 @@ void true_air_columns(const experiment::Experiment& e, Columns& out) {
     return m.hose.law != gas::Hose::Law::none && m.hose.volume > 0;
   });
   if (!breaks && !in_hoses) return;
-  out.scalar("/true/air/mass", "kg", "in chambers, hoses and tank",
-             [](const Snapshot& m) { return m.true_of->robot.air_mass; });
+  truth(out, "/true/air/mass", "kg", "in chambers, hoses and tank", &T::air_mass);
   const bool fails = std::ranges::any_of(e.faults, [](const experiment::Fault& f) {
     return f.what == experiment::Fault::What::failed;
   });
   if (fails && e.supply.kind == gas::Supply::Kind::tank)
-    out.scalar("/true/supply/air_past_tank", "kg",
-               "from the line while a fault had cut it from its tank, since the start",
-               [](const Snapshot& m) { return m.true_of->robot.air_past_tank; });
+    truth(out, "/true/supply/air_past_tank", "kg",
+          "from the line while a fault had cut it from its tank, since the start",
+          &T::air_past_tank);
 }
 
 void true_supply_columns(const gas::Supply& supply, Columns& out) {
   if (supply.kind != gas::Supply::Kind::tank) return;
-  out.scalar("/true/supply/pressure", "Pa", "of the line to the inlets, absolute",
-             [](const Snapshot& m) { return m.true_of->robot.supply_pressure; });
-  out.scalar("/true/supply/tank_pressure", "Pa", "before the regulator, absolute",
-             [](const Snapshot& m) { return m.true_of->robot.tank_pressure; });
+  truth(out, "/true/supply/pressure", "Pa", "of the line to the inlets, absolute",
+        &T::supply_pressure);
+  truth(out, "/true/supply/tank_pressure", "Pa", "before the regulator, absolute",
+        &T::tank_pressure);
 }
 
 // `disc` counts the discs of all feet.
@@ -96,43 +101,34 @@ void true_foot_columns(const robot::Robot& robot, const LegAt& leg, std::size_t&
                y = m.true_of->robot.foot[l].force_y;
              });
   for (const robot::Foot::Point& point : foot.points)
-    out.scalar(leg.topic("/true/foot/" + point.name + "/load"), "N", "of the ground, up",
-               [i = disc++](const Snapshot& m) { return m.true_of->robot.disc_force[i]; });
+    truth(out, leg.topic("/true/foot/" + point.name + "/load"), "N", "of the ground, up",
+          &T::disc_force, disc++);
   if (foot.points.empty()) ++disc;
 }
 
 void true_body_columns(const robot::Robot& robot, Columns& out) {
   if (robot.trolley.present) {
-    out.scalar("/true/trolley/position", "m", "along the track",
-               [](const Snapshot& m) { return m.true_of->robot.x; });
-    out.scalar("/true/trolley/velocity", "m/s", "along the track",
-               [](const Snapshot& m) { return m.true_of->robot.x_rate; });
+    truth(out, "/true/trolley/position", "m", "along the track", &T::x);
+    truth(out, "/true/trolley/velocity", "m/s", "along the track", &T::x_rate);
   }
   std::size_t disc = 0;
   for (const LegAt& leg : legs_at(robot)) true_foot_columns(robot, leg, disc, out);
   if (!robot.rollers.present) return;
-  out.scalar("/true/roller/front/load", "N", "below 0: it has lifted off",
-             [](const Snapshot& m) { return m.true_of->robot.roller_front; });
-  out.scalar("/true/roller/rear/load", "N", "below 0: it has lifted off",
-             [](const Snapshot& m) { return m.true_of->robot.roller_rear; });
+  truth(out, "/true/roller/front/load", "N", "below 0: it has lifted off", &T::roller_front);
+  truth(out, "/true/roller/rear/load", "N", "below 0: it has lifted off", &T::roller_rear);
 }
 
 void true_cylinder_columns(const robot::Robot& robot, Columns& out) {
   if (!moves(robot.cylinder)) return;
-  out.scalar("/true/cylinder/position", "m", "up from the extended stop",
-             [](const Snapshot& m) { return m.true_of->robot.lift; });
-  out.scalar("/true/cylinder/velocity", "m/s", "upwards",
-             [](const Snapshot& m) { return m.true_of->robot.lift_rate; });
+  truth(out, "/true/cylinder/position", "m", "up from the extended stop", &T::lift);
+  truth(out, "/true/cylinder/velocity", "m/s", "upwards", &T::lift_rate);
   if (robot.cylinder.mode == robot::Cylinder::Mode::free) return;
   for (const auto& [name, c] :
        {std::pair{"up", std::size_t{0}}, std::pair{"down", std::size_t{1}}}) {
     const std::string at = std::string("/true/cylinder/") + name;
-    out.scalar(at + "/pressure", "Pa", "absolute",
-               [c = c](const Snapshot& m) { return m.true_of->robot.cylinder_pressure[c]; });
-    out.scalar(at + "/air_in", "kg", "from the supply since the start",
-               [c = c](const Snapshot& m) { return m.true_of->robot.cylinder_in[c]; });
-    out.scalar(at + "/air_out", "kg", "to the atmosphere since the start",
-               [c = c](const Snapshot& m) { return m.true_of->robot.cylinder_out[c]; });
+    truth(out, at + "/pressure", "Pa", "absolute", &T::cylinder_pressure, c);
+    truth(out, at + "/air_in", "kg", "from the supply since the start", &T::cylinder_in, c);
+    truth(out, at + "/air_out", "kg", "to the atmosphere since the start", &T::cylinder_out, c);
   }
 }
 

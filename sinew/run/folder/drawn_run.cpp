@@ -25,38 +25,21 @@ namespace {
 namespace fs = std::filesystem;
 using Figures = std::vector<report::Figure>;
 
-// A run as read from its files.
-struct Drawn {
-  RecordedRun files;
-  config::Node resolved;
-  signals::Table table;
-  std::string name;  // name of its experiment
-};
-
 // A run with final times, and its analysis.
 struct Analysed {
-  explicit Analysed(const Drawn& run)
+  explicit Analysed(const ReadRun& run)
       : drawn(run), analysis(run.table, analysis::read_machine(run.resolved)) {}
 
   report::Run run() const {
     return {.analysis = analysis, .resolved = drawn.resolved, .name = drawn.name};
   }
 
-  const Drawn& drawn;
+  const ReadRun& drawn;
   analysis::Analysis analysis;
 };
 
-Drawn read(const fs::path& named, const DrawingRequest& request, const Notices& notices) {
-  const RecordedRun files = recorded_run(named);
-  Drawn out{files, config::compose(machine_of(files, request.machine).string()),
-            log::read(files.log), experiment_in(files.log)};
-  if (!out.table.complete)
-    notices.warning(files.log.string() +
-                    " was cut off or is damaged; the figures show what stands before");
-  if (const std::string ended = ended_in(files.log); !ended.empty())
-    notices.warning(fmt::format("{}: the run was ended: {}; the figures show it until then",
-                                files.log.string(), ended));
-  return out;
+ReadRun read(const fs::path& named, const DrawingRequest& request, const Notices& notices) {
+  return read_run(recorded_run(named), request.machine, "the figures show", notices);
 }
 
 // Converts "/joint/*/angle,/muscle/*/tension" into a figure with two plots.
@@ -137,7 +120,7 @@ void warn_of_unused_labels(const Figures& figures, const report::Labels& labels,
     notices.warning(config::to_text(p));
 }
 
-std::vector<Figures> figures_of(const std::vector<Drawn>& runs, const DrawingRequest& request) {
+std::vector<Figures> figures_of(const std::vector<ReadRun>& runs, const DrawingRequest& request) {
   report::RunFigureOptions options = request.options;
   options.units =
       config::units_to_show({.now = request.units, .run = &runs.front().resolved}).units;
@@ -191,7 +174,7 @@ std::vector<std::string> names_of(const OverlaidRuns& overlaid) {
   return out;
 }
 
-void align_with_first(std::vector<Drawn>& runs, const OverlaidRuns& overlaid,
+void align_with_first(std::vector<ReadRun>& runs, const OverlaidRuns& overlaid,
                       const std::vector<std::string>& names, const Notices& notices) {
   if (!overlaid.align) return;
   for (std::size_t i = 1; i < runs.size(); ++i) {
@@ -212,7 +195,7 @@ void align_with_first(std::vector<Drawn>& runs, const OverlaidRuns& overlaid,
 
 std::string draw_run(const fs::path& named, const fs::path& folder, const DrawingRequest& request,
                      const Notices& notices) {
-  std::vector<Drawn> runs;
+  std::vector<ReadRun> runs;
   runs.push_back(read(named, request, notices));
   return finish(std::move(figures_of(runs, request)[0]), named, runs[0].name, folder, request,
                 notices);
@@ -233,7 +216,7 @@ std::string draw_muscles(const fs::path& file, const fs::path& folder,
 std::string draw_runs(const OverlaidRuns& overlaid, const fs::path& folder,
                       const DrawingRequest& request, const Notices& notices) {
   const std::vector<std::string> names = names_of(overlaid);
-  std::vector<Drawn> runs;
+  std::vector<ReadRun> runs;
   for (const fs::path& named : overlaid.runs) runs.push_back(read(named, request, notices));
   align_with_first(runs, overlaid, names, notices);
   std::vector<Figures> each = figures_of(runs, request);
@@ -244,7 +227,7 @@ std::string draw_runs(const OverlaidRuns& overlaid, const fs::path& folder,
 }
 
 std::string labels_of_runs(const std::vector<fs::path>& named, const DrawingRequest& request) {
-  std::vector<Drawn> runs;
+  std::vector<ReadRun> runs;
   for (const fs::path& one : named) runs.push_back(read(one, request, {}));
   report::FigureTexts phrases;
   for (const Figures& figures : figures_of(runs, request))

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/record/machine.h"
-#include "sinew/analysis/verdict/reported.h"
 #include "sinew/report/figures/figure.h"
 #include "sinew/report/figures/gallery.h"
 #include "sinew/report/figures/gnuplot.h"
@@ -35,14 +33,6 @@ std::string write_figures(const std::filesystem::path& folder, report::Gallery g
 // Returns the files that the folder's index.json lists, followed by index.json itself; empty if
 // there is no index of figures.
 std::vector<std::string> figures_in(const std::filesystem::path& folder);
-
-// Main figures of a run whose experiment has no reported values.
-
-// Returns lines of text: duration, distance and speed, each joint's excursion, error and
-// passiveness, and air used; for a stand, all figures. Units are those of `shown`; without it SI
-// with lengths in millimetres and angles in degrees.
-std::string main_figures(const analysis::Summary& summary, const analysis::Machine& machine,
-                         const units::ShownUnits* shown = nullptr);
 
 // Figures of the characteristic of a muscle: tension over length at several pressures, by the
 // law of its file.

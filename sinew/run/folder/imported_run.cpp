@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include "sinew/config/write/writer.h"
-#include "sinew/experiment/imported.fields.h"
 #include "sinew/log/file.h"
 #include "sinew/recording/assemble.h"
 #include "sinew/recording/read.h"

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/experiment/imported.h"
+#include "sinew/experiment/imported.fields.h"
 #include "sinew/recording/mapping.h"
 #include "sinew/robot/robot.h"
 #include "sinew/run/folder/run_storage.h"

@@ -3,11 +3,11 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <utility>
 
 #include "sinew/log/file.h"
-#include "sinew/log/lock.h"
 #include "sinew/log/replacement.h"
 #include "sinew/run/folder/files.h"
 
@@ -26,15 +26,6 @@ void require(const fs::path& where, const std::error_code& problem) {
 
 int open_folder(const fs::path& folder) {
   return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-}
-
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code problem;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, problem))
-    names.push_back(entry.path().filename().string());
-  require(folder, problem);
-  return names;
 }
 
 // Removes a file within the folder, and its subfolder if it becomes empty.
@@ -77,6 +68,16 @@ void sync(const fs::path& file) {
 bool has_line_end(const std::string& name) { return name.find('\n') != name.npos; }
 
 }  // namespace
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code problem;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, problem))
+    names.push_back(entry.path().filename().string());
+  require(folder, problem);
+  std::ranges::sort(names);
+  return names;
+}
 
 void make_folders(const fs::path& folder) {
   std::error_code problem;

@@ -17,6 +17,9 @@ namespace sinew::run {
 // created.
 void make_folders(const std::filesystem::path& folder);
 
+// Returns the names of the files and folders in a folder, sorted. Throws config::Error.
+std::vector<std::string> names_in(const std::filesystem::path& folder);
+
 class OutputFolder {
  public:
   // Creates the folder if it is missing, and locks it for the lifetime of this object. Throws

@@ -1,7 +1,5 @@
 #include "sinew/run/folder/page.h"
 
-#include "sinew/config/compose.h"
-#include "sinew/log/reader.h"
 #include "sinew/report/page/page.h"
 #include "sinew/run/folder/run_log.h"
 
@@ -9,19 +7,10 @@ namespace sinew::run {
 
 std::string page_of(const RecordedRun& run, const std::string& machine, const Notices& notices,
                     const std::string& units) {
-  const config::Node resolved = config::compose(machine_of(run, machine).string());
-  const signals::Table table = log::read(run.log);
-  const std::string ended = ended_in(run.log);
-  const analysis::Analysis analysis(table, analysis::read_machine(resolved), ended);
-  std::string page = report::page(
-      {.analysis = analysis, .resolved = resolved, .name = experiment_in(run.log), .units = units});
-  if (!ended.empty())
-    notices.warning(run.log.string() + ": the run was ended: " + ended +
-                    "; the page shows it until then");
-  if (!table.complete)
-    notices.warning(run.log.string() +
-                    " was cut off or is damaged; the page shows what stands before");
-  return page;
+  const ReadRun read = read_run(run, machine, "the page shows", notices);
+  const analysis::Analysis analysis(read.table, analysis::read_machine(read.resolved), read.ended);
+  return report::page(
+      {.analysis = analysis, .resolved = read.resolved, .name = read.name, .units = units});
 }
 
 bool write_report(const OutputFolder& folder, const analysis::Analysis& logged,

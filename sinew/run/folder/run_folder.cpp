@@ -40,14 +40,6 @@ int highest_number(const fs::path& folder) {
   return highest;
 }
 
-std::vector<std::string> contents(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    names.push_back(entry.path().filename().string());
-  std::ranges::sort(names);
-  return names;
-}
-
 OutputFolder next_run_folder(const std::string& experiment) {
   const fs::path parent = fs::path("runs") / experiment;
   make_folders(parent);
@@ -71,7 +63,7 @@ void clear_unfinished(const fs::path& folder) {
   if (!fs::is_directory(folder)) return;
   std::vector<std::string> known = known_names();
   known.insert(known.end(), {".replaced", log::hidden_name(".replaced")});
-  for (const std::string& name : contents(folder))
+  for (const std::string& name : names_in(folder))
     if (std::ranges::find(known, name) == known.end())
       refuse(folder, name, "nothing but a run that did not end", "to move it elsewhere");
   for (const std::string& name : known) fs::remove(folder / name);
@@ -86,7 +78,7 @@ OutputFolder run_folder(const std::string& path, bool force, const std::string& 
     refuse(folder, "a file", "a folder", "another name");
   OutputFolder out(folder);
 
-  std::vector<std::string> names = contents(folder);
+  std::vector<std::string> names = names_in(folder);
   if (names.empty()) return out;
   if (!force) {
     if (names.size() > 4) names.resize(4), names.back() = "…";
@@ -109,7 +101,7 @@ void commit_run(OutputFolder& folder) {
 std::string where_left(const OutputFolder& folder) {
   if (!folder.staged()) return "";
   const std::string before = folder.path().string() + ": holds what was there before";
-  if (contents(folder.work()).empty()) return "\n" + before;
+  if (names_in(folder.work()).empty()) return "\n" + before;
   return fmt::format("\n{}; what this run left is in {}", before, folder.work().string());
 }
 

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "sinew/config/compose.h"
 #include "sinew/config/utf8.h"
 #include "sinew/log/reader.h"
 
@@ -38,6 +39,19 @@ void require_finished(const std::filesystem::path& log) {
         fmt::format("{}: the run was ended: {}; a run that was not finished has no summary; sinew "
                     "report shows what it did",
                     log.string(), ended));
+}
+
+ReadRun read_run(const RecordedRun& run, const std::string& machine, const std::string& shows,
+                 const Notices& notices) {
+  ReadRun out{run.log, config::compose(machine_of(run, machine).string()), log::read(run.log),
+              experiment_in(run.log), ended_in(run.log)};
+  if (!out.ended.empty())
+    notices.warning(fmt::format("{}: the run was ended: {}; {} it until then", run.log.string(),
+                                out.ended, shows));
+  if (!out.table.complete)
+    notices.warning(fmt::format("{} was cut off or is damaged; {} what stands before",
+                                run.log.string(), shows));
+  return out;
 }
 
 RunLog::RunLog(const std::filesystem::path& file, const std::string& name, int seed,

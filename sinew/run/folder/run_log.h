@@ -5,7 +5,10 @@
 #include <filesystem>
 #include <string>
 
+#include "sinew/config/node.h"
 #include "sinew/log/writer.h"
+#include "sinew/run/folder/notices.h"
+#include "sinew/run/folder/run_folder.h"
 #include "sinew/run/simulation/logged.h"
 #include "sinew/run/simulation/run.h"
 
@@ -20,6 +23,20 @@ std::string ended_in(const std::filesystem::path& log);
 
 // Throws std::runtime_error if the log's run ended early, for uses that require a finished run.
 void require_finished(const std::filesystem::path& log);
+
+// A stored run as read from its files.
+struct ReadRun {
+  std::filesystem::path log;
+  config::Node resolved;
+  signals::Table table;
+  std::string name;   // name of its experiment; empty if unknown
+  std::string ended;  // why it ended early
+};
+
+// Reads a run, described by `machine`, or by its resolved.toml if `machine` is empty. Warns if it
+// ended early or its log is cut off; `shows` is the subject of that warning: "the page shows".
+ReadRun read_run(const RecordedRun& run, const std::string& machine, const std::string& shows,
+                 const Notices& notices);
 
 class RunLog {
  public:

@@ -2,15 +2,18 @@
 
 #include <fmt/format.h>
 
+#include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/warnings.h"
+#include "sinew/config/compose.h"
 #include "sinew/config/node.h"
 #include "sinew/experiment/measured.h"
 #include "sinew/run/folder/imported_run.h"
 #include "sinew/run/folder/outcome.h"
 #include "sinew/run/folder/page.h"
 #include "sinew/run/folder/run_folder.h"
-#include "sinew/run/folder/runnable.h"
-#include "sinew/run/simulation/fault_log.h"
+#include "sinew/run/setup/buildable.h"
+#include "sinew/run/simulation/logged.h"
+#include "sinew/run/simulation/remote_boards.h"
 
 namespace sinew::run {
 
@@ -52,6 +55,7 @@ RunStorage::RunStorage(RunRequest request, Notices notices)
 
 void RunStorage::apply(RunOptions& options) {
   place_->apply(options);
+  if (request_.stop != nullptr) options.stop = request_.stop;
   if (log_) log_->tap(options);
 }
 
@@ -175,6 +179,16 @@ StoredRun run_and_store(RunRequest request, Notices notices) {
 StoredRun store_table(const signals::Table& table, const experiment::Experiment& e,
                       const RunRequest& where, const Notices& notices) {
   return store_imported(table, e, {}, "", where, notices);
+}
+
+experiment::Experiment runnable(const std::string& path, const std::vector<std::string>& sets,
+                                bool allow_unreachable) {
+  const config::Node root = config::compose(path, sets);
+  experiment::Experiment e = buildable(root, path);
+  if (!allow_unreachable) refuse_unreachable(e);
+  (void)analysis::read_machine(root);  // an experiment that cannot be summarised is not run
+  (void)logged_topics(e);
+  return e;
 }
 
 }  // namespace sinew::run

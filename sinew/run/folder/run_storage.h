@@ -11,6 +11,7 @@
 #include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/summary.h"
 #include "sinew/config/node.h"
+#include "sinew/experiment/experiment.h"
 #include "sinew/run/folder/notices.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/run_log.h"
@@ -31,7 +32,7 @@ struct RunRequest {
                                    // set
   std::string port;                // destination of the run (place.h); empty: simulation
   bool clear_fault = false;        // confirms that a board's fault has been examined
-  const std::atomic<bool>* stop = nullptr;  // true: stops waiting for a board
+  const std::atomic<bool>* stop = nullptr;  // true: ends the run, and waiting for a board
 };
 
 // The files and figures of a completed run.
@@ -98,5 +99,12 @@ StoredRun run_and_store(RunRequest request, Notices notices = {});
 // and `where.force` select the folder. Throws config::Error or log::Error.
 StoredRun store_table(const signals::Table& table, const experiment::Experiment& e,
                       const RunRequest& where, const Notices& notices = {});
+
+// Returns an experiment whose machine, plan, controller, channels and reported values were checked,
+// as `sinew run` and `sinew check` do. `sets` are "key=value" and override the file's. Throws
+// config::Error with the lines of the files; with `allow_unreachable` a foot path may leave the
+// reach.
+experiment::Experiment runnable(const std::string& path, const std::vector<std::string>& sets,
+                                bool allow_unreachable);
 
 }  // namespace sinew::run

@@ -10,8 +10,8 @@
 #include "sinew/config/node.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/run/setup/planar_setup.h"
-#include "sinew/run/setup/stand_setup.h"
+#include "sinew/run/setup/machine_setup.h"
+#include "sinew/run/setup/saved_state.h"
 #include "sinew/units/hash.h"
 
 namespace sinew::run {
@@ -20,47 +20,25 @@ namespace {
 
 using State = air::DrivenMuscle::State;
 
-// Header of a saved state.
-struct Header {
-  char format[16] = "sinew.muscle/1";
-  std::uint64_t model = 0;     // hash of the description and the library's version
-  std::uint64_t checksum = 0;  // hash of the state
-};
+constexpr SavedKind saved_kind{"sinew.muscle/1", "save() of a driven muscle", "muscle"};
 
 std::uint64_t model_of(const MuscleSetup& setup) {
   const std::uint64_t parts[] = {setup.model, sizeof(State)};
   return units::hash(std::as_bytes(std::span(parts)), units::hash(SINEW_VERSION));
 }
 
-[[noreturn]] void refuse(const char* what) { throw std::invalid_argument(what); }
-
 }  // namespace
 
 std::vector<std::byte> save(const air::DrivenMuscle& muscle, const MuscleSetup& setup) {
-  std::vector<std::byte> out(sizeof(Header) + sizeof(State));
-  const std::span<std::byte> state = std::span(out).subspan(sizeof(Header));
-  std::memcpy(state.data(), &muscle.state(), sizeof(State));
-  const Header header{.model = model_of(setup), .checksum = units::hash(state)};
-  std::memcpy(out.data(), &header, sizeof header);
-  return out;
+  return sealed(saved_kind, model_of(setup), std::as_bytes(std::span(&muscle.state(), 1)));
 }
 
 void restore(air::DrivenMuscle& muscle, const MuscleSetup& setup,
              std::span<const std::byte> saved) {
-  Header header;
-  if (saved.size() < sizeof header) refuse("save: found too few bytes for one");
-  std::memcpy(&header, saved.data(), sizeof header);
-  saved = saved.subspan(sizeof header);
-  if (std::memcmp(header.format, Header{}.format, sizeof header.format) != 0)
-    refuse("save: found something else; expected what save() of a driven muscle gave");
-  if (header.model != model_of(setup))
-    refuse(
-        "save: found that of another muscle, or of another version of Sinew; expected one of the "
-        "same description");
-  if (saved.size() != sizeof(State) || units::hash(saved) != header.checksum)
-    refuse("save: found it cut off or spoilt");
   State state;
-  std::memcpy(&state, saved.data(), sizeof state);
+  const std::span<const std::byte> bytes =
+      unsealed(saved_kind, model_of(setup), sizeof state, saved);
+  std::memcpy(&state, bytes.data(), sizeof state);
   muscle.restore(state);
 }
 

@@ -8,8 +8,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/run/setup/buildable.h"
-#include "sinew/run/setup/planar_setup.h"
-#include "sinew/run/setup/stand_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 #include "tests/places.h"
 
 namespace sinew::run::muscle_setup_test {

@@ -29,4 +29,8 @@ experiment::Experiment buildable(const config::Node& root, const std::string& pa
 // Does the same for uses that need a robot; also throws for an experiment on a test stand.
 experiment::Experiment buildable_robot(const config::Node& root, const std::string& path);
 
+// Returns the ends of the plan's range that no muscle can pull a joint to. They are warnings, since
+// a load or a swing may move the joint there.
+std::vector<robot::Contradiction> beyond_reach(const experiment::Experiment& experiment);
+
 }  // namespace sinew::run

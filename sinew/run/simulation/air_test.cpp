@@ -8,7 +8,7 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/setup/buildable.h"
-#include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/world/machine.h"
 #include "tests/places.h"

@@ -12,8 +12,8 @@ namespace sinew::run {
 
 // A clock that never waits: the loop runs as fast as possible.
 struct SimulatedClock {
-  // Returns true at once: the run continues.
-  bool wait_until(signals::Tick) noexcept { return true; }
+  // Returns at once.
+  void wait_until(signals::Tick) noexcept {}
 };
 
 // Wall time at `speed` simulated seconds per second.
@@ -50,8 +50,8 @@ class SteeredClock {
         at_once_(at_once),
         at_(at_once) {}
 
-  // Waits until the tick is due, even if the pace changes meanwhile. Returns true.
-  bool wait_until(signals::Tick t) noexcept {
+  // Waits until the tick is due, even if the pace changes meanwhile.
+  void wait_until(signals::Tick t) noexcept {
     const double target = static_cast<double>(t) * signals::tick_seconds;
     for (;;) {
       move_on();
@@ -63,7 +63,6 @@ class SteeredClock {
     const bool far_behind = !was_paused_ && at_ - target > std::max(at_once_, moment * pace_);
     if (pace_ == 0) at_ = std::max(at_, target);
     if (pace_ > 0 && far_behind) at_ = target;
-    return true;
   }
 
  private:

@@ -8,7 +8,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 #include "sinew/run/simulation/test_same.h"
 #include "sinew/world/batch.h"
 #include "tests/places.h"

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <type_traits>
 
 #include "sinew/control/joint/state.h"
 #include "sinew/signals/port.h"
@@ -14,6 +15,14 @@ template <class Watch>
 bool is_stopped(Watch& watch) noexcept {
   if constexpr (requires { watch.stopped(); }) return watch.stopped();
   return false;
+}
+
+// Waits for a tick. Returns whether it is in time; a clock that returns nothing is never late.
+template <class Clock>
+bool wait(Clock& clock, signals::Tick t) noexcept {
+  if constexpr (!std::is_void_v<decltype(clock.wait_until(t))>) return clock.wait_until(t);
+  clock.wait_until(t);
+  return true;
 }
 
 // Position of a loop. Copied as bytes.
@@ -37,7 +46,7 @@ auto each_board(JointController& joint_controller) noexcept {
 //         control::Supervisor, control::JointController alone; or Boards, whose each() returns
 //         boards with edges(t), due(t) and take()
 // GaitController   update(seen, t) -> Command, finished()
-// Clock   wait_until(t) -> false if late
+// Clock   wait_until(t) -> false if late, or nothing
 // Watch   command(t), edge(e), sample(t), next(t): a recorder, which changes nothing. It may have
 //         stopped(): true ends the loop
 //
@@ -55,7 +64,7 @@ void advance(LoopState& loop, JointController& joint_controller, GaitController&
   Tick& t = loop.at;
   while (status == Status::ok && t < until &&
          joint_controller.state().phase != control::Phase::off && !is_stopped(watch)) {
-    if (!clock.wait_until(t)) joint_controller.missed(t);
+    if (!wait(clock, t)) joint_controller.missed(t);
 
     // The high level's setpoints for this period; its last ones shut the joint controller down.
     if (t % joint_controller.scan().period == 0) {

@@ -8,7 +8,11 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/control/link/baud.h"
+#include "sinew/control/supervise/output_stage.h"
+#include "sinew/host/realtime.h"
+#include "sinew/port/comedi/comedi_port.h"
 #include "sinew/port/hardware/serial_line.h"
+#include "sinew/robot/wiring/wiring.h"
 #include "sinew/run/setup/installation.h"
 #include "sinew/run/simulation/remote_boards.h"
 #include "sinew/run/simulation/wired_body.h"
@@ -56,6 +60,14 @@ void refuse_faults(const experiment::Experiment& e, const std::string& place) {
            "none: only a simulated machine is broken by a word");
 }
 
+void refuse_regulators(const experiment::Experiment& e, const control::Board& board,
+                       const std::string& place) {
+  for (std::size_t j = 0; j < board.joint_controller.joints; ++j)
+    if (board.joint_controller.joint[j].kind == control::JointKind::regulated)
+      refuse(e, place, "joint." + e.robot.joints[board.joint[j]].name, "pressure regulators",
+             "valves that open and shut: a digital output sets no pressure");
+}
+
 // Returns whether two pulses overlap. Compares ticks, since a pulse may begin when another ends.
 bool overlap(const Pulse& a, const Pulse& b) {
   const auto ticks = [](double seconds) { return std::llround(seconds / signals::tick_seconds); };
@@ -101,11 +113,15 @@ void refuse_what_no_board_can(const experiment::Experiment& e, const std::string
            fmt::format("a multiple of {:g} s, the period in which a board reports", period));
   if (!place.starts_with(serial)) return;
   refuse_faults(e, place);
-  const control::JointControllerConfig& joint_controller = boards.front().joint_controller;
-  for (std::size_t j = 0; j < joint_controller.joints; ++j)
-    if (joint_controller.joint[j].kind == control::JointKind::regulated)
-      refuse(e, place, "muscle", "pressure regulators",
-             "valves: no output of a board sets a pressure");
+  refuse_regulators(e, boards.front(), place);
+}
+
+// Returns the machine's number of a valve that bits_of() names.
+std::size_t number_of(const robot::Robot& robot, const robot::ValveBit& b) {
+  const std::size_t which = b.which == "inlet" ? 0 : 1;
+  const int muscle = robot::find_muscle(robot, b.of);
+  if (muscle >= 0) return 2 * static_cast<std::size_t>(muscle) + which;
+  return 2 * robot.muscles.size() + (b.of == "cylinder_up" ? 0 : 2) + which;
 }
 
 // Returns the rate of the line: the given one, since another port of the firmware may differ,
@@ -147,6 +163,40 @@ bool is_outside_simulation(const std::string& place) {
 bool has_own_clock(const std::string& place) {
   return is_outside_simulation(place) && !place.starts_with(lock_step);
 }
+
+plant::CardMachine card_machine(const experiment::Experiment& e, const std::string& place) {
+  const control::Board board = only_board(e);
+  refuse_regulators(e, board, place);
+  const robot::Converter& converter = e.robot.converter;
+  plant::CardMachine out{
+      .full_scale = converter.full_scale,
+      .top = converter.top(),
+      .active_low = !e.wiring.present || e.wiring.polarity == robot::Wiring::Polarity::low_opens,
+      .vent = static_cast<signals::Tick>(board.joint_controller.shutdown_vent)};
+  for (const robot::Sensor& s : e.robot.sensors) out.inputs.push_back({s.name, s.channel});
+
+  out.outputs.resize(2 * e.robot.muscles.size() + 4);
+  for (const robot::ValveBit& b : robot::bits_of(e.robot, e.wiring)) {
+    plant::CardMachine::Output& valve = out.outputs[number_of(e.robot, b)];
+    valve.valve = b.of + " " + b.which;
+    valve.bit = b.bit;
+    valve.inlet = b.which == "inlet";
+  }
+  const control::OutputStage stage(board.joint_controller, 0);
+  for (std::size_t i = 0; i < board.valve.size(); ++i) {
+    plant::CardMachine::Output& valve = out.outputs[board.valve[i]];
+    valve.inverted = (stage.inverted() >> i & 1u) != 0;
+    valve.vents = (stage.exhausts() >> i & 1u) != 0;
+  }
+  return out;
+}
+
+struct Place::Card {
+  Card(const std::string& device, const plant::CardMachine& machine)
+      : port(device, machine, beat) {}
+  host::TickTimer beat;
+  plant::ComediPort port;
+};
 
 struct Place::Serial {
   Serial(const Device& device, const link::Configuration& configuration)
@@ -212,9 +262,15 @@ void Place::prepare(bool clear_fault, const std::atomic<bool>* stop) {
 void Place::open_card(const std::string& device, const experiment::Experiment& e,
                       const std::string& place) {
   refuse_faults(e, place);
-  card_ = std::make_unique<CardPlace>(device, e, place);
+  card_ = std::make_unique<Card>(device, card_machine(e, place));
   who_ = fmt::format("{}, at {}", card_->port.board(), place);
-  messages_ = card_->messages();
+  const host::RealTime real_time;
+  const host::Latency latency = host::measure_latency(1);
+  messages_ = host::problems(real_time);
+  messages_.insert(messages_.begin(), "timer " + host::in_words(latency));
+  if (host::class_of(latency) == host::LatencyClass::unfit)
+    messages_.emplace_back(
+        "this computer wakes too late for a tick of 100 us: expect missed ticks; see sinew doctor");
 }
 
 Place::~Place() = default;

@@ -16,7 +16,6 @@
 
 #include "sinew/experiment/experiment.h"
 #include "sinew/port/hardware/emulated_board.h"
-#include "sinew/run/simulation/card_place.h"
 #include "sinew/run/simulation/run.h"
 
 namespace sinew::run {
@@ -29,6 +28,9 @@ bool is_outside_simulation(const std::string& place);
 
 // Returns whether the place has a machine or an emulator whose clock cannot be paced.
 bool has_own_clock(const std::string& place);
+
+// Returns the machine as a card drives it. Throws config::Error if no card can drive it.
+plant::CardMachine card_machine(const experiment::Experiment& experiment, const std::string& place);
 
 class Place {
  public:
@@ -56,6 +58,7 @@ class Place {
   bool board_keeps_time() const noexcept { return keeps_time_; }
 
  private:
+  struct Card;
   struct Serial;
   template <class Emulated>
   struct AtMachine;
@@ -66,7 +69,7 @@ class Place {
   std::unique_ptr<Serial> serial_;
   std::unique_ptr<AtMachine<plant::EmulatedBoard>> emulated_;
   std::unique_ptr<AtMachine<plant::LockStepBoard>> lock_step_;
-  std::unique_ptr<CardPlace> card_;
+  std::unique_ptr<Card> card_;
   plant::RemoteBoard* board_ = nullptr;
   int lead_ = 1;
   bool keeps_time_;

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "sinew/control/link/telemetry.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/port/hardware/remote_board.h"
 #include "sinew/run/controllers/boards.h"
@@ -101,5 +102,11 @@ class RemoteBoards final : public signals::Port {
   bool handed_on_ = false;
   std::array<RemoteBoardView, 1> views_;
 };
+
+// Returns a board's record of the 200 ms before its fault as CSV with a line per period, oldest
+// first, for a robot on one board: the run's time [s], the board's state and its cause, and the
+// number of accepted host frames; per sensor the last good reading, as converted, and the readings
+// rejected so far [count]; per joint its speed [count/s], the outputs of the laws and duties [%].
+std::string fault_log_csv(std::span<const link::Telemetry> log, const experiment::Experiment& e);
 
 }  // namespace sinew::run

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "sinew/control/link/test_wire.h"
-#include "sinew/run/simulation/fault_log.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/simulation/test_board.h"
 #include "sinew/run/simulation/test_log.h"

@@ -4,7 +4,7 @@
 
 #include "sinew/port/recorded/recorded.h"
 #include "sinew/run/controllers/high_level.h"
-#include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/faulty_port.h"
 #include "sinew/run/simulation/loop.h"

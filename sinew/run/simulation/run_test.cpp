@@ -14,7 +14,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/control/setup/joint_controllers.h"
 #include "sinew/control/setup/supervision.h"
-#include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/loop.h"
 #include "sinew/run/simulation/simulation.h"

@@ -10,7 +10,8 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/setup/machine_setup.h"
+#include "sinew/run/setup/saved_state.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/units/hash.h"
@@ -32,19 +33,7 @@ struct NullWatch {
   Tick next(Tick) const noexcept { return std::numeric_limits<Tick>::max(); }
 };
 
-// Header of a saved state.
-struct Header {
-  char format[16] = "sinew.save/1";
-  std::uint64_t model = 0;     // hash of the experiment's values and the library's version
-  std::uint64_t checksum = 0;  // hash of this header, with 0 here, and the state
-  std::int64_t tick = 0;
-};
-static_assert(std::has_unique_object_representations_v<Header>);
-
-std::uint64_t checksum_of(Header header, std::span<const std::byte> state) {
-  header.checksum = 0;
-  return units::hash(state, units::hash(std::as_bytes(std::span(&header, 1))));
-}
+constexpr SavedKind saved_kind{"sinew.save/1", "Simulation::save", "experiment"};
 
 template <class Part>
 void put(std::span<std::byte>& out, const Part& part) {
@@ -231,50 +220,37 @@ std::uint64_t Simulation::model() {
 }
 
 std::size_t Simulation::save_size() const noexcept {
-  return sizeof(Header) + (machine_ ? machine_->state_size() : 0) + controllers_.state_size() +
-         sizeof(FaultyPort::State) + sizeof loop_;
+  return saved_header_size + (machine_ ? machine_->state_size() : 0) + controllers_.state_size() +
+         sizeof(FaultyPort::State) + sizeof loop_ + sizeof tick_;
 }
 
 std::vector<std::byte> Simulation::save() {
   if (!machine_) refuse("save: a body that is not simulated has no state to be saved");
-  std::vector<std::byte> out(save_size());
-  const std::span<std::byte> all(out), state = all.subspan(sizeof(Header));
-  std::span<std::byte> rest = state.subspan(machine_->state_size());
-  machine_->save(state.first(machine_->state_size()));
+  std::vector<std::byte> state(save_size() - saved_header_size);
+  std::span<std::byte> rest(state);
+  machine_->save(rest.first(machine_->state_size()));
+  rest = rest.subspan(machine_->state_size());
   controllers_.save(rest.first(controllers_.state_size()));
   rest = rest.subspan(controllers_.state_size());
   put(rest, faulty_ ? faulty_->state() : FaultyPort::State{});
   put(rest, loop_);
-  Header header{.model = model(), .tick = tick_};
-  header.checksum = checksum_of(header, state);
-  std::span<std::byte> head = all.first(sizeof(Header));
-  put(head, header);
-  return out;
+  put(rest, tick_);
+  return sealed(saved_kind, model(), state);
 }
 
 void Simulation::restore(std::span<const std::byte> saved) {
   if (!machine_) refuse("restore: a body that is not simulated takes no state");
-  Header header;
-  if (saved.size() < sizeof header) refuse("save: found too few bytes for one");
-  take(saved, header);
-  if (std::strncmp(header.format, Header{}.format, sizeof header.format) != 0)
-    refuse("save: found something else; expected what Simulation::save gave");
-  if (header.model != model())
-    refuse(
-        "save: found that of another experiment, or of another version of Sinew; expected one of "
-        "the same values");
-  if (saved.size() != save_size() - sizeof header || checksum_of(header, saved) != header.checksum)
-    refuse("save: found it cut off or spoilt");
-
-  machine_->restore(saved.first(machine_->state_size()));
-  saved = saved.subspan(machine_->state_size());
-  controllers_.restore(saved.first(controllers_.state_size()));
-  saved = saved.subspan(controllers_.state_size());
+  std::span<const std::byte> rest =
+      unsealed(saved_kind, model(), save_size() - saved_header_size, saved);
+  machine_->restore(rest.first(machine_->state_size()));
+  rest = rest.subspan(machine_->state_size());
+  controllers_.restore(rest.first(controllers_.state_size()));
+  rest = rest.subspan(controllers_.state_size());
   FaultyPort::State faulty;
-  take(saved, faulty);
+  take(rest, faulty);
   if (faulty_) faulty_->restore(faulty);
-  take(saved, loop_);
-  tick_ = header.tick;
+  take(rest, loop_);
+  take(rest, tick_);
   // A new machine has to be given the scan.
   if (loop_.started) (void)port_->start(controllers_.scan());
 }

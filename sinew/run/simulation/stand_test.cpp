@@ -11,9 +11,9 @@
 
 #include "sinew/actuator/thesis_actuator.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/run/controllers/drive_laws.h"
+#include "sinew/run/controllers/drive.h"
 #include "sinew/run/setup/buildable.h"
-#include "sinew/run/setup/stand_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/simulation/simulation.h"
 #include "sinew/run/simulation/test_same.h"

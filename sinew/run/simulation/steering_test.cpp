@@ -11,7 +11,7 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/simulation/simulation.h"

@@ -1,7 +1,7 @@
 #include "sinew/run/simulation/wired_body.h"
 
 #include "sinew/control/supervise/output_stage.h"
-#include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/setup/machine_setup.h"
 #include "sinew/run/simulation/remote_boards.h"
 
 namespace sinew::run {

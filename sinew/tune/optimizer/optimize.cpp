@@ -81,12 +81,6 @@ Tuned optimize_and_store(const Tuning& tuning, const std::filesystem::path& file
 
 namespace {
 
-double number_in(const std::string& cell) {
-  double out = 0;
-  std::from_chars(cell.data(), cell.data() + cell.size(), out);
-  return out;
-}
-
 // Returns the index of a figure's cell in a row.
 std::size_t cell_of(const Sweep& runs, const Figure& figure) {
   std::size_t at = headings(runs).size() - 1 - runs.report.size();
@@ -359,6 +353,12 @@ StudyRequest request_of(const Tuning& tuning) {
   // distinguished.
   out.text.insert(out.text.find('\n') + 1, own);
   add_columns(tuning, out);
+  return out;
+}
+
+double number_in(const std::string& cell) {
+  double out = 0;
+  std::from_chars(cell.data(), cell.data() + cell.size(), out);
   return out;
 }
 

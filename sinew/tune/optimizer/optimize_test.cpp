@@ -13,7 +13,6 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/setup/buildable.h"
-#include "sinew/tune/optimizer/candidate_file.h"
 #include "sinew/tune/optimizer/tuned_text.h"
 #include "tests/places.h"
 

@@ -1,6 +1,7 @@
 // tune/optimizer/tuned_text.h - results of a tuning, as text and as JSON.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "sinew/tune/optimizer/optimize.h"
@@ -26,5 +27,13 @@ std::string json_of(const Tuning& tuning, const Tuned& tuned);
 // holds, then the tuned keys, goals and limits.
 std::vector<std::string> candidate_headings(const Tuning& tuning);
 std::vector<std::string> candidate_cells(const Candidate& candidate);
+
+// --- a candidate as an experiment of its own ---
+
+// Returns the text of an experiment file for the path `file`: the tuning's experiment with the
+// candidate's values, their source and the goals reached. Its paths are relative to the folder of
+// `file`. Throws config::Error if the tuning's experiment cannot be read.
+std::string experiment_of(const Tuning& tuning, const Candidate& candidate,
+                          const std::filesystem::path& file);
 
 }  // namespace sinew::tune

@@ -36,21 +36,11 @@ const SinewMethods* methods() {
   return get();
 }
 
-SinewMethodParameters of_module(const MethodParameters& parameters) {
-  return {.nsga2 = parameters.kind == MethodKind::nsga2 ? 1 : 0,
-          .dimensions = parameters.dimensions,
-          .costs = parameters.costs,
-          .population = parameters.population,
-          .seed = parameters.seed,
-          .step = parameters.step};
-}
-
 }  // namespace
 
 OptimizerMethod::OptimizerMethod(const MethodParameters& parameters)
     : parameters_(parameters), methods_(methods()), method_(nullptr, methods_->end) {
-  const SinewMethodParameters all = of_module(parameters);
-  method_.reset(methods_->make(&all));
+  method_.reset(methods_->make(&parameters));
   if (!method_) throw std::runtime_error("pagmo refuses this method");
 }
 

@@ -20,7 +20,10 @@
 
 #include "sinew/config/origin.h"
 #include "sinew/tune/optimizer/goals.h"
+#include "sinew/tune/optimizer/module/methods.h"
 #include "sinew/tune/sweep.h"
+
+namespace sinew::tune {
 
 // An optimiser that returns a generation of points and is given the cost of each.
 //
@@ -30,25 +33,6 @@
 // Both are implemented by pagmo, in a separate module that only this class opens. The same seed and
 // the same costs give the same points, so a study continues from its rows: no other state of a
 // method is stored.
-
-struct SinewMethods;
-
-namespace sinew::tune {
-
-// CMA-ES, for one goal; NSGA-II, for several.
-enum class MethodKind { cmaes, nsga2 };
-
-// Parameters of a method.
-struct MethodParameters {
-  MethodKind kind = MethodKind::cmaes;
-  std::size_t dimensions = 0;   // coordinates of a point, above 0
-  std::size_t costs = 1;        // costs of a point; cmaes: 1
-  std::size_t population = 16;  // at least 5; nsga2: a multiple of 4
-  std::uint64_t seed = 1;
-  double step = 0.3;  // cmaes: initial standard deviation, as a share of each range
-};
-
-// A search that returns points and is given their costs, generation by generation.
 class OptimizerMethod {
  public:
   // Throws std::runtime_error if the program was built without pagmo.
@@ -72,10 +56,6 @@ class OptimizerMethod {
   const SinewMethods* methods_;
   std::unique_ptr<void, void (*)(void*)> method_;
 };
-
-}  // namespace sinew::tune
-
-namespace sinew::tune {
 
 // The largest share of a range: the next number below 1.
 inline constexpr double below_one = 1 - 0x1p-53;

@@ -4,7 +4,7 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/json/json.h"
-#include "sinew/log/error.h"
+#include "sinew/log/file.h"
 #include "sinew/report/page/page.h"
 #include "sinew/tune/page/study_view.h"
 #include "sinew/tune/results/results.h"

@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <fstream>
 
-#include "sinew/log/error.h"
 #include "sinew/log/file.h"
 
 namespace sinew::tune {

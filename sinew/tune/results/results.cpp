@@ -17,9 +17,7 @@
 #include <unistd.h>
 
 #include "sinew/json/json.h"
-#include "sinew/log/error.h"
 #include "sinew/log/file.h"
-#include "sinew/log/lock.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/tune/results/database.h"
 #include "sinew/tune/results/request.h"
@@ -131,8 +129,6 @@ namespace {
 
 // --- the tables of a study's file, described in docs/reference/study-file.md ---
 
-namespace fs = std::filesystem;
-
 constexpr std::int64_t application = 0x53696e77;  // "Sinw", by which `file` and SQLite identify it
 
 const char* const tables =
@@ -155,6 +151,10 @@ const char* const tables_of_candidates =
 constexpr std::string_view of_runs = "point, ok, stop_reached, no_air, out_of_reach";
 constexpr std::string_view of_candidates = "candidate, generation, feasible, violation, holds";
 
+[[noreturn]] void damaged(const fs::path& file, const std::string& why) {
+  throw log::Error(file, "is damaged: " + why, "keep a copy, and choose another name");
+}
+
 // Returns a list of texts as JSON; a text need not be UTF-8.
 std::string json_of(const std::vector<std::string>& texts) { return Json(texts).text(); }
 
@@ -164,8 +164,7 @@ std::vector<std::string> texts_of(const std::string& json, const fs::path& file)
   (void)Json::parse(json, list);
   const auto is_text = [](const Json& item) { return item.is_string(); };
   if (list.is_array() && std::ranges::all_of(list, is_text)) return list.strings();
-  throw log::Error(file, "is damaged: a list of texts cannot be read",
-                   "keep a copy, and choose another name");
+  damaged(file, "a list of texts cannot be read");
 }
 
 std::string lower(std::string text) {
@@ -253,8 +252,7 @@ std::vector<Case> cases_of(const std::string& text, const fs::path& file) try {
                    .weight = one.at("weight").number()});
   return out;
 } catch (const JsonError&) {
-  throw log::Error(file, "is damaged: its cases cannot be read",
-                   "keep a copy, and choose another name");
+  damaged(file, "its cases cannot be read");
 }
 
 // Returns the cases as JSON.
@@ -303,14 +301,13 @@ bool has_study(Database& database, const fs::path& file) {
   if (owner != application)
     run::refuse(file, "a database of another program", "a study's file",
                 "another name, or to remove it first");
-  if (format > study_format)
-    run::refuse(file, fmt::format("a study's file of format {}", format),
-                fmt::format("format {}", study_format),
-                "a newer Sinew: the file was written by one");
-  if (format < study_format)
-    run::refuse(file, fmt::format("a study's file of format {}", format),
-                fmt::format("format {}", study_format),
-                "another name: an older Sinew wrote it, and any SQLite program still reads it");
+  if (format != study_format)
+    run::refuse(
+        file, fmt::format("a study's file of format {}", format),
+        fmt::format("format {}", study_format),
+        format > study_format
+            ? "a newer Sinew: the file was written by one"
+            : "another name: an older Sinew wrote it, and any SQLite program still reads it");
   return true;
 }
 
@@ -366,12 +363,9 @@ StudyRequest study_of(Database& database, const fs::path& file) {
   const bool tuning = !out.of_candidates.empty();
   if (hash_of(out) != value_of(database, "hash") || out.points > most_points ||
       checksum_of(database, tuning) != value_of(database, "checksum"))
-    throw log::Error(file, "is damaged: its study cannot be read",
-                     "keep a copy, and choose another name");
+    damaged(file, "its study cannot be read");
   return out;
 }
-
-namespace fs = std::filesystem;
 
 // Return the checksum of all values of a row.
 std::string checksum_of(const Row& row) {
@@ -394,16 +388,13 @@ template <class AnyRow>
 void require_checksum(const AnyRow& row, const std::string& kept, const fs::path& file,
                       const std::string& what) {
   if (checksum_of(row) != kept)
-    throw log::Error(file, "is damaged: the checksum of " + what + " is not that of its values",
-                     "keep a copy, and choose another name");
+    damaged(file, "the checksum of " + what + " is not that of its values");
 }
 
 // Throws log::Error if SQLite's structure is damaged, since rows may be missing then.
 void require_whole(Database& database, const fs::path& file) {
   Statement check(database, "PRAGMA quick_check(1)");
-  if (!check.step() || check.text(0) != "ok")
-    throw log::Error(file, "is damaged: SQLite finds its pages not in order",
-                     "keep a copy, and choose another name");
+  if (!check.step() || check.text(0) != "ok") damaged(file, "SQLite finds its pages not in order");
 }
 
 std::vector<Row> rows_of(Database& database, const fs::path& file, const StudyRequest& request) {
@@ -422,8 +413,7 @@ std::vector<Row> rows_of(Database& database, const fs::path& file, const StudyRe
                  .out_of_reach = select.number(4) != 0};
     require_checksum(row, select.text(8), file, fmt::format("point {}", row.point));
     if (row.point >= request.points || row.cells.size() != request.columns.size())
-      throw log::Error(file, "is damaged: a row that the study cannot have",
-                       "keep a copy, and choose another name");
+      damaged(file, "a row that the study cannot have");
     out.push_back(std::move(row));
   }
   return out;

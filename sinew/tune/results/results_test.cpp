@@ -11,7 +11,7 @@
 #include <random>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/log/error.h"
+#include "sinew/log/file.h"
 #include "tests/places.h"
 
 namespace sinew::tune::results_test {

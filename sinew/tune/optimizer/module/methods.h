@@ -5,21 +5,28 @@
 #include <cstddef>
 #include <cstdint>
 
-extern "C" {
+namespace sinew::tune {
 
-// MethodParameters in C, for the module.
-struct SinewMethodParameters {
-  int nsga2;               // 1: NSGA-II; 0: CMA-ES
-  std::size_t dimensions;  // coordinates of a point
-  std::size_t costs;       // costs of a point; CMA-ES: 1
-  std::size_t population;  // points of a generation
-  std::uint64_t seed;
-  double step;  // CMA-ES: initial standard deviation, as a share of each range
+// CMA-ES, for one goal; NSGA-II, for several.
+enum class MethodKind : int { cmaes, nsga2 };
+
+// Parameters of a method.
+struct MethodParameters {
+  MethodKind kind = MethodKind::cmaes;
+  std::size_t dimensions = 0;   // coordinates of a point, above 0
+  std::size_t costs = 1;        // costs of a point; cmaes: 1
+  std::size_t population = 16;  // points of a generation, at least 5; nsga2: a multiple of 4
+  std::uint64_t seed = 1;
+  double step = 0.3;  // cmaes: initial standard deviation, as a share of each range
 };
+
+}  // namespace sinew::tune
+
+extern "C" {
 
 // Functions return false if pagmo failed; error_text() then returns the error.
 struct SinewMethods {
-  void* (*make)(const SinewMethodParameters* parameters);
+  void* (*make)(const sinew::tune::MethodParameters* parameters);
   bool (*begin)(void* method, const double* points, const double* costs);  // the first generation
   // Writes a generation; `count` is 0 if the method has converged.
   bool (*ask)(void* method, double* points, std::size_t* count);

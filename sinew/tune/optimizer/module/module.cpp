@@ -21,6 +21,9 @@
 
 namespace {
 
+using sinew::tune::MethodKind;
+using sinew::tune::MethodParameters;
+
 using Point = pagmo::vector_double;
 
 // The points of a generation in the order of their evaluation.
@@ -53,10 +56,10 @@ struct Costs {
 
 class Method {
  public:
-  explicit Method(const SinewMethodParameters& parameters)
+  explicit Method(const MethodParameters& parameters)
       : parameters_(parameters), generation_(std::make_shared<Generation>()) {
     const auto seed = static_cast<unsigned>(parameters.seed ^ (parameters.seed >> 32));
-    if (parameters.nsga2 != 0)
+    if (parameters.kind == MethodKind::nsga2)
       algorithm_.emplace<pagmo::nsga2>(1U, 0.95, 10.,
                                        1. / static_cast<double>(parameters.dimensions), 20., seed);
     else
@@ -98,7 +101,7 @@ class Method {
     return {all + i * parameters_.costs, all + (i + 1) * parameters_.costs};
   }
 
-  SinewMethodParameters parameters_;
+  MethodParameters parameters_;
   std::shared_ptr<Generation> generation_;
   std::variant<pagmo::cmaes, pagmo::nsga2> algorithm_;
   pagmo::population population_;
@@ -117,7 +120,7 @@ bool guarded(void* method, const Work& work) {
   }
 }
 
-void* make(const SinewMethodParameters* parameters) try {
+void* make(const MethodParameters* parameters) try {
   return new Method(*parameters);
 } catch (const std::exception&) {
   return nullptr;
