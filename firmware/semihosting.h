@@ -25,6 +25,15 @@ inline void print(const char* text) { semihost(0x04, text); }  // SYS_WRITE0
   for (;;) {}
 }
 
+inline void print_number(const char* before, std::uint32_t n) {
+  std::array<char, 12> text{};
+  char* p = &text[11];
+  do *--p = static_cast<char>('0' + n % 10);
+  while ((n /= 10) > 0);
+  print(before);
+  print(p);
+}
+
 // Prints the reason and ends the program with an error.
 [[noreturn]] inline void fail(const char* why) {
   print(why);

@@ -104,15 +104,6 @@ void host() {
 
 // --- output -------------------------------------------------------------------------------------
 
-void print_number(const char* before, std::uint32_t n) {
-  std::array<char, 12> text{};
-  char* p = &text[11];
-  do *--p = static_cast<char>('0' + n % 10);
-  while ((n /= 10) > 0);
-  print(before);
-  print(p);
-}
-
 [[noreturn]] void end() {
   print_number("worst_tick ", of_ticks.worst);
   print_number("\nmean_tick ", of_ticks.sum / of_ticks.ticks);

@@ -96,11 +96,7 @@ void look_at_stack() {
   last_look = now;
   if (cortex_m::deepest_stack() == deepest) return;
   deepest = cortex_m::deepest_stack();
-  std::array<char, 12> text{};
-  char* p = &text[11];
-  for (std::uint32_t n = deepest; n > 0; n /= 10) *--p = static_cast<char>('0' + n % 10);
-  print("deepest stack ");
-  print(p);
+  print_number("deepest stack ", deepest);
   print("\n");
 }
 
