@@ -31,7 +31,6 @@
 #include "sinew/run/setup/buildable.h"
 #include "sinew/tune/page/study_view.h"
 #include "thesis/out_dat/out_dat.h"
-#include "thesis/out_dat/ports.h"
 
 namespace sinew::cli {
 

@@ -1,6 +1,6 @@
 // thesis/figures/chapter_2.cpp - figures computed from laws: 2-6, 2-11, 2-13. Those of the test
 // stand are in chapter_2_stand.cpp.
-#include "thesis/figures/chapter_2.h"
+#include "thesis/figures/thesis.h"
 
 #include <fmt/format.h>
 

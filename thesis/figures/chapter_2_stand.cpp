@@ -12,7 +12,7 @@
 #include "sinew/experiment/measured.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/units/constants.h"
-#include "thesis/figures/chapter_2.h"
+#include "thesis/figures/thesis.h"
 
 namespace sinew::thesis {
 namespace {

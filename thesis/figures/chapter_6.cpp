@@ -4,7 +4,7 @@
 
 #include "sinew/analysis/measures/statistics.h"
 #include "sinew/units/constants.h"
-#include "thesis/figures/chapter_6.h"
+#include "thesis/figures/leg_run.h"
 
 namespace sinew::thesis {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "sinew/analysis/measures/laws.h"
 #include "sinew/analysis/measures/statistics.h"
-#include "thesis/figures/chapter_6.h"
+#include "thesis/figures/leg_run.h"
 
 namespace sinew::thesis {
 namespace {

@@ -76,4 +76,11 @@ report::Figure joint_angles(const LegRun& run, const std::string& number, const 
 report::Figure foot_path(const LegRun& run, const std::string& number, const std::string& title,
                          const std::string& caption, const Window& window);
 
+// Adds the statements of the text about test 1 that summaries do not cover to 6-3 to 6-11.
+void add_text_of_test_1(const LegRun& run, const Sources& from, Exhibits& out);
+
+// Returns the largest amplitude of a joint's half swings in the swing of a step (the first is 0)
+// [deg]; 0 if it does not turn twice (analysis/measures/statistics.h).
+double swing_amplitude(const LegRun& run, const std::string& joint, int step);
+
 }  // namespace sinew::thesis

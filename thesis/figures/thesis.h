@@ -51,14 +51,18 @@ std::string text_of(const report::Gallery& gallery);
 
 // Return the figures of a chapter, or of a part of it.
 Exhibits chapter_2(const Sources&);
-Exhibits valve_laws(const Sources&);    // 3-4, 3-13
-Exhibits trapped_air(const Sources&);   // 3-6 to 3-11: a load released with the air sealed in
+Exhibits weights(const Sources&);      // 2-8 to 2-12: weights on an actuator with its air sealed in
+Exhibits valve_laws(const Sources&);   // 3-4, 3-13
+Exhibits trapped_air(const Sources&);  // 3-6 to 3-11: a load released with the air sealed in
 Exhibits pulsed_valve(const Sources&);  // 3-14 to 3-23
 Exhibits chapter_4(const Sources&);
 Exhibits chapter_5(const Sources&);
 Exhibits chapter_6(const Sources&);         // 6-1, 6-3 to 6-11: test 1
 Exhibits chapter_6_limits(const Sources&);  // 6-12 to 6-16
 Exhibits chapter_7(const Sources&);
+
+// Adds to 2-13 a run in which the stand stretches the actuator.
+void add_length_sweep(const Sources&, Exhibit& figure_2_13);
 
 using report::StatementClass;
 

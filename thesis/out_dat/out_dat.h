@@ -32,4 +32,9 @@ std::string write_out_dat(const signals::Table& table, const experiment::Experim
 signals::Table parse_out_dat(std::string_view text, const std::string& name,
                              const experiment::Experiment& experiment);
 
+// Returns the bytes that the thesis's controller writes to the two valve ports (B.1) as CSV: time
+// [s] and the byte of each port [1], with a row for each change. A board with more valve bits has
+// more ports; several boards follow one after the other, with a column for their number.
+std::string write_ports(const signals::Table& table, const experiment::Experiment& experiment);
+
 }  // namespace sinew::thesis
