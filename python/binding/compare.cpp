@@ -27,16 +27,9 @@ std::vector<std::string> folders_of(const py::sequence& runs) {
 report::AlignOptions wish_of(const std::string& align, const std::string& event,
                              const std::vector<std::string>& align_by, const std::string& clock,
                              double within) {
-  using report::Align;
-  std::optional<Align> by;
-  for (const Align one : {Align::start, Align::sequence, Align::event, Align::correlation})
-    if (to_text(one) == align) by = one;
-  if (!by)
-    throw py::value_error("align: found " + config::in_quotes(align) +
-                          "; expected start, sequence, event or correlation");
   if (clock != "none" && clock != "fit")
     throw py::value_error("clock: found " + config::in_quotes(clock) + "; expected none or fit");
-  report::AlignOptions align_options(*by);
+  report::AlignOptions align_options(align_of(align));
   align_options.event = event;
   align_options.channels = align_by;
   align_options.fit_clock = clock == "fit";
@@ -74,6 +67,14 @@ py::object replay(const py::object& path, const std::string& of, const py::objec
 }
 
 }  // namespace
+
+report::Align align_of(const std::string& word) {
+  using report::Align;
+  for (const Align by : {Align::start, Align::sequence, Align::event, Align::correlation})
+    if (to_text(by) == word) return by;
+  throw py::value_error("align: found " + config::in_quotes(word) +
+                        "; expected start, sequence, event or correlation");
+}
 
 void bind_compare(py::module_& m) {
   m.def(

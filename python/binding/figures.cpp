@@ -1,7 +1,7 @@
 // python/binding/figures.cpp - printable figures of kept runs, and the pages of their films.
 #include <pybind11/stl.h>
 
-#include "python/binding/bind.h"
+#include "python/binding/recording.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/report/compare/comparison.h"
 #include "sinew/run/folder/compared.h"
@@ -31,7 +31,7 @@ double time_of(const py::object& seconds, double otherwise) {
   return seconds.is_none() ? otherwise : seconds.cast<double>();
 }
 
-std::optional<analysis::AlignRequest> align_of(const std::string& word, bool fit_clock) {
+std::optional<analysis::AlignRequest> request_of(const std::string& word, bool fit_clock) {
   if (word.empty() || word == "start") return std::nullopt;
   if (word != "event" && word != "correlation")
     throw py::value_error("align: found \"" + word + "\"; expected start, event or correlation");
@@ -48,7 +48,7 @@ py::object figures(const py::object& runs, const py::object& folder, const Names
                    const std::string& font, const std::string& title, const py::object& start,
                    const py::object& stop, bool force) {
   const Names folders = runs_of(runs);
-  run::OverlaidRuns overlaid{{folders.begin(), folders.end()}, names, align_of(align, fit_clock)};
+  run::OverlaidRuns overlaid{{folders.begin(), folders.end()}, names, request_of(align, fit_clock)};
   overlay = overlay || !names.empty() || overlaid.align;
   if (overlaid.runs.size() > 1 && !overlay)
     throw py::value_error("runs: found several; expected one, or names or overlay=True");
@@ -76,22 +76,11 @@ py::object figures(const py::object& runs, const py::object& folder, const Names
   return about;
 }
 
-report::AlignOptions wish_of(const std::string& word, bool fit_clock) {
-  for (const auto by : {report::Align::start, report::Align::sequence, report::Align::event,
-                        report::Align::correlation}) {
-    if (report::to_text(by) != word) continue;
-    report::AlignOptions align_options(by);
-    align_options.fit_clock = fit_clock;
-    return align_options;
-  }
-  throw py::value_error("align: found \"" + word +
-                        "\"; expected start, sequence, event or correlation");
-}
-
 std::string film_page(const Names& runs, const py::object& path, const std::string& align,
                       bool fit_clock, bool force) {
   if (runs.empty()) throw py::value_error("runs: found none; expected the folder of a run");
-  const report::AlignOptions align_options = wish_of(align, fit_clock);
+  report::AlignOptions align_options(align_of(align));
+  align_options.fit_clock = fit_clock;
   if (runs.size() == 1 && (align_options.by != report::Align::start || fit_clock))
     throw py::value_error(
         "align: found one run; expected several, which are aligned with each other");

@@ -11,6 +11,7 @@
 #include "python/binding/bind.h"
 #include "sinew/analysis/summary.h"
 #include "sinew/config/node.h"
+#include "sinew/report/compare/comparison.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::python {
@@ -55,6 +56,9 @@ void summarize(Recording& recording);
 
 // Returns HTML that shows a page in a notebook cell.
 py::object in_a_cell(const std::string& page);
+
+// Returns the alignment of that name. Throws ValueError for another word.
+report::Align align_of(const std::string& word);
 
 // Reads a kept run's folder or a log. Throws config::Error and log::Error.
 std::shared_ptr<Recording> read_run(const std::string& named);

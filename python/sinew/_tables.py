@@ -125,25 +125,11 @@ def header_of(given: Any) -> "Optional[List[str]]":
 def parts_of(data: Any, units: "Mapping[str, str]", label: str) -> "Dict[str, Any]":
     """Return a table in the library's form; `label` is the name of a table without a file."""
     table = data if isinstance(data, Table) else Table(data)
-    parts: "Dict[str, Any]" = {
-        "path": label,
-        "text": None,
-        "names": texts_of("names", table.names),
-        "units": texts_of("units", table.units),
-        "where": texts_of("where", table.where),
-        "columns": header_of(table.columns),
-        "atmosphere": table.atmosphere,
-        "drop_incomplete": table.drop_incomplete,
-        "encoding": table.encoding,
-        "decimal": table.decimal,
-        "thousands": table.thousands,
-        "dates": table.dates,
-        "rate": table.rate,
-        "spread_times": table.spread_times,
-        "part": table.part,
-        "values": texts_of("values", table.values),
-        "offsets": texts_of("offsets", table.offsets),
-    }
+    settings = (field.name for field in dataclasses.fields(table) if field.name != "data")
+    parts: "Dict[str, Any]" = {name: getattr(table, name) for name in settings}
+    for name in ("names", "units", "where", "values", "offsets"):
+        parts[name] = texts_of(name, parts[name])
+    parts.update(path=label, text=None, columns=header_of(table.columns))
     if isinstance(table.data, (str, os.PathLike)):
         parts["path"] = os.fspath(table.data)
         return parts
