@@ -228,15 +228,15 @@ struct Calls {
 };
 
 // Makes an instance of the model that the folder of resources describes, and returns its handle.
-// Throws std::exception if the arguments are invalid; `token_name` is the version's name for the
-// token.
+// Throws std::exception if the arguments are invalid; `token_name` is the interface's name for the
+// token, `version` that of the library.
 template <class HeldInstance, class Models, class Importer>
 void* make_instance(const char* name, const char* token, const char* token_name,
-                    const char* resources, Importer importer, bool logging) {
+                    const char* resources, const char* version, Importer importer, bool logging) {
   if (!name || !*name) throw std::runtime_error("found no name of the instance");
   if (!token) throw std::runtime_error(std::string("found no ") + token_name);
   const auto description = Description::read(resource_folder(resources));
-  return new HeldInstance{Instance<Models>(description, token, SINEW_VERSION), std::move(importer),
+  return new HeldInstance{Instance<Models>(description, token, version), std::move(importer),
                           logging};
 }
 

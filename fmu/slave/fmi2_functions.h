@@ -40,7 +40,8 @@ inline Component instantiate(String name, Type type, String guid, String resourc
     if (name) importer.name = name;
     if (type != Type::co_simulation && name && *name)
       throw std::runtime_error("found another type; expected co-simulation, the one that there is");
-    return make_instance<Slave, Models>(name, guid, "GUID", resources, importer, logging);
+    return make_instance<Slave, Models>(name, guid, "GUID", resources, SINEW_VERSION, importer,
+                                        logging);
   } catch (const std::exception& e) {
     return refuse_instance("fmi2Instantiate", importer, e.what());
   }

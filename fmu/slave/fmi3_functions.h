@@ -78,8 +78,8 @@ Instance fmi3InstantiateCoSimulation(String name, String token, String resources
                                      Log write, void*) {
   const Importer importer{environment, write};
   try {
-    return sinew::fmu::make_instance<Slave, sinew::fmu::Models>(name, token, "instantiation token",
-                                                                resources, importer, logging);
+    return sinew::fmu::make_instance<Slave, sinew::fmu::Models>(
+        name, token, "instantiation token", resources, SINEW_VERSION, importer, logging);
   } catch (const std::exception& e) {
     return sinew::fmu::refuse_instance(__func__, importer, e.what());
   }
