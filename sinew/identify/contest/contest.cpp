@@ -50,6 +50,7 @@ Solution solution_of(const FitProblem& problem, const SolverOptions& options) {
 std::vector<Solution> solutions_of(const Candidate& candidate, FitProblem problem) {
   SolverOptions options = problem.options;
   options.tolerance = std::max(options.tolerance, candidate.search_tolerance);
+  if (candidate.search_steps > 0) options.most_steps = candidate.search_steps;
   std::vector<Solution> out;
   for (const std::vector<double>& start : candidate.starts) {
     for (std::size_t i = 0; i < start.size(); ++i) {
@@ -114,7 +115,7 @@ std::vector<double> left_out_residuals(const Candidate& candidate, const Trial& 
 }
 
 // Returns the solution from the best of the starts; the problem then starts there.
-Solution solved(const Candidate& candidate, FitProblem& problem, Fit& fit) {
+Solution solved(const Candidate& candidate, FitProblem& problem) {
   std::vector<Solution> all;
   std::optional<Solution> best;
   if (!candidate.starts.empty()) {
@@ -123,9 +124,9 @@ Solution solved(const Candidate& candidate, FitProblem& problem, Fit& fit) {
         all, {}, [&](const Solution& s) { return loss_of(s, problem.options.outlier); });
     start_at(*best, problem);
   }
-  if (!best || candidate.search_tolerance > problem.options.tolerance)
+  if (!best || candidate.search_steps > 0 || candidate.search_tolerance > problem.options.tolerance)
     best = solution_of(problem, problem.options);
-  if (candidate.refuse) fit.refused = candidate.refuse(*best, all);
+  if (candidate.finish) candidate.finish(problem, all, *best);
   return std::move(*best);
 }
 
@@ -137,7 +138,7 @@ Fit fit_of(const Candidate& candidate, const Trial& trial, double full_scale) {
   const Rowset rows = trial.rows.empty() ? all_of(trial.measured) : trial.rows;
   try {
     FitProblem problem = problem_of(candidate, trial.measured, rows);
-    Solution found = solved(candidate, problem, out);
+    Solution found = solved(candidate, problem);
     out.parameters = found.estimates;
     out.fit = score(found.residuals, full_scale);
     out.residuals = misses(candidate, trial.measured, found.values);
@@ -183,8 +184,8 @@ void check_constraints(std::span<const Candidate> candidates) {
 }
 
 Solution solve(const Candidate& candidate, const std::vector<double>& measured) {
-  const FitProblem problem = problem_of(candidate, measured, all_of(measured));
-  return solution_of(problem, problem.options);
+  FitProblem problem = problem_of(candidate, measured, all_of(measured));
+  return solved(candidate, problem);
 }
 
 void fit_candidates(std::vector<Candidate> candidates, const Trial& trial, Report& report,

@@ -30,6 +30,7 @@ struct Candidate {
   Prediction predict;
   std::vector<std::vector<double>> starts;  // the best solution is used; empty: Parameter::start
   double search_tolerance = 1e-6;  // of the solutions from the starts; the best is then refined
+  int search_steps = 0;            // of each of them, at most; 0: as in the options
   SolverOptions options;
   Constraints constraints;
   std::vector<std::string_view> may_be_at_bound;  // parameters with a meaning there
@@ -40,14 +41,15 @@ struct Candidate {
   // Returns predicted - measured for data that take more than the rows of a split, such as a
   // recording with a start of its own, by the solution for all rows. Empty: the splits are used.
   std::function<std::vector<double>(const Solution& whole)> left_out;
-  // Returns why the solution cannot be used, compared with those of all starts; empty: it can.
-  std::function<std::string(const Solution& best, std::span<const Solution> all)> refuse;
+  // Corrects the solution, whose rivals are those of all starts. Throws Refusal if it is useless.
+  std::function<void(const FitProblem& problem, std::span<const Solution> all, Solution& best)>
+      finish;
 };
 
 // Throws config::Error if their constraints name a parameter that no candidate has.
 void check_constraints(std::span<const Candidate> candidates);
 
-// Returns the solution for all rows, from the parameters' starts alone.
+// Returns the solution for all rows.
 Solution solve(const Candidate& candidate, const std::vector<double>& measured);
 
 // Returns the names of laws.

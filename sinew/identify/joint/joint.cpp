@@ -271,9 +271,9 @@ std::string error_text(const Combination& c) {
   return fmt::format("{} +- {:.2g} %", c.text, 100 * c.relative_error);
 }
 
-// Returns the parameters that the data do not separate, or another solution that fits as well;
-// empty if all muscle parameters are determined.
-std::string inseparable(const Solution& s, std::span<const Solution> all_starts) {
+// Throws Refusal with the parameters that the data do not separate, or with another solution that
+// fits as well, unless all muscle parameters are determined.
+void refuse_inseparable(const FitProblem&, std::span<const Solution> all_starts, Solution& s) {
   std::string which, ambiguous;
   for (const Solution& other : all_starts)
     if (ambiguous.empty()) ambiguous = other_solution(s, other);
@@ -282,13 +282,13 @@ std::string inseparable(const Solution& s, std::span<const Solution> all_starts)
     if (matters && e.free && (e.at_bound || !e.identifiable))
       which += (which.empty() ? "" : ", ") + e.name;
   }
-  if (which.empty() && ambiguous.empty()) return "";
+  if (which.empty() && ambiguous.empty()) return;
   std::string out = which.empty() ? ambiguous : which + " cannot be separated";
   const std::vector<Combination> all = combinations_of(s);
   if (!all.empty() && std::isfinite(all.front().relative_error))
     out += "; determined is " + error_text(all.front());
   if (all.size() > 1) out += "; worst is " + error_text(all.back());
-  return out;
+  throw Refusal(out);
 }
 
 void refuse_unusable(const Measured& data, const JointTorque& joint, const JointSetup& setup) {
@@ -375,7 +375,7 @@ Candidate candidate_of(const Law& law, const JointTorque& joint, const JointTorq
                             .difference = setup.moving ? across_kinks : SolverOptions{}.difference},
                 .constraints = constraints,
                 .may_be_at_bounds = true,
-                .refuse = inseparable};
+                .finish = refuse_inseparable};
   for (const JointSlot& s : slots) out.parameters.push_back(s.parameter);
   const auto torque_of = [&law, slots, known = joint_known(joint, setup)](
                              const JointTorque& of, std::span<const double> p,

@@ -26,7 +26,7 @@ bool is_of_one_fill(std::string_view name) {
 
 // A curve, with the indices of its parameters in the joint problem.
 struct JointCurve {
-  Curve curve;
+  const Curve* curve;
   double added = 0;
   std::vector<FreeValue> free;     // the first is C/V
   std::vector<std::size_t> place;  // index of each in the joint parameters; unused for C/V
@@ -53,13 +53,15 @@ ChamberLine chamber_line(std::span<const double> inverse, std::span<const double
 // All curves, fitted together with one model.
 class JointFill {
  public:
-  JointFill(const FillModel& model, const ValveOptions& options, std::vector<JointCurve> curves,
-            std::span<const FittedFill> separate)
-      : model_(model), options_(options), curves_(std::move(curves)) {
+  // `separate` are the fits of the single curves.
+  JointFill(const FillModel& model, const ValveOptions& options, std::span<const AddedFill> fills,
+            std::span<const Curve> curves, std::span<const Fit> separate)
+      : model_(model), options_(options) {
     std::vector<double> inverse, added;
-    for (std::size_t i = 0; i < curves_.size(); ++i) {
-      inverse.push_back(1 / separate[i].fit.parameters.front().value);
-      added.push_back(curves_[i].added);
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      curves_.push_back({&curves[i], fills[i].added, free_values(model, curves[i], options), {}});
+      inverse.push_back(1 / separate[i].parameters.front().value);
+      added.push_back(fills[i].added);
     }
     const ChamberLine line = chamber_line(inverse, added);
     const double most = *std::ranges::max_element(added);
@@ -72,37 +74,24 @@ class JointFill {
     for (std::size_t i = 0; i < curves_.size(); ++i) place(curves_[i], separate[i]);
   }
 
-  std::size_t count() const {
-    std::size_t out = 0;
-    for (const JointCurve& c : curves_) out += c.curve.time.size();
-    return out;
-  }
+  const std::vector<Parameter>& parameters() const { return parameters_; }
 
-  Refit solve() const {
-    FitProblem of{.count = count(),
-                  .parameters = parameters_,
-                  .options = {.correlated = true,
-                              .most_steps = 60,
-                              .widest_interval = well_known,
-                              .difference = 1e-3},
-                  .constraints = {}};
-    of.residuals = [own = *this](std::span<const double> p, std::span<double> r) {
-      std::size_t at = 0;
-      for (const JointCurve& c : own.curves_) {
-        const std::size_t rows = c.curve.time.size();
-        if (!own.fill(c, p, r.subspan(at, rows))) return false;
-        for (std::size_t i = 0; i < rows; ++i) r[at + i] -= c.curve.pressure[i];
-        at += rows;
-      }
-      return true;
-    };
-    Solution s = least_squares(of.residuals, of.count, of.parameters, of.options);
-    return {std::move(of), std::move(s)};
+  bool operator()(std::span<const double> p, std::span<double> pressure) const {
+    std::size_t at = 0;
+    for (const JointCurve& c : curves_) {
+      std::vector<double> values{p[0] / (p[1] + c.added)};
+      for (std::size_t i = 1; i < c.free.size(); ++i) values.push_back(p[c.place[i]]);
+      const std::size_t rows = c.curve->time.size();
+      if (!predict_fill(model_, *c.curve, options_, c.free, values, pressure.subspan(at, rows)))
+        return false;
+      at += rows;
+    }
+    return true;
   }
 
  private:
   // Adds a curve's own parameters; shared ones are added with the first curve's values.
-  void place(JointCurve& c, const FittedFill& separate) {
+  void place(JointCurve& c, const Fit& separate) {
     const bool first = &c == &curves_.front();
     for (std::size_t i = 0; i < c.free.size(); ++i) {
       Parameter p = c.free[i].parameter;
@@ -113,19 +102,11 @@ class JointFill {
         c.place.back() = static_cast<std::size_t>(known - parameters_.begin());
         continue;
       }
-      p.start = std::clamp(separate.fit.parameters[i].value, p.low, p.high);
+      p.start = std::clamp(separate.parameters[i].value, p.low, p.high);
       if (is_of_one_fill(p.name)) p.name += fmt::format("_{}", &c - curves_.data() + 1);
       c.place.back() = parameters_.size();
       parameters_.push_back(p);
     }
-  }
-
-  bool fill(const JointCurve& c, std::span<const double> p, std::span<double> pressure) const {
-    std::vector<double> values{p[0] / (p[1] + c.added)};
-    for (std::size_t i = 1; i < c.free.size(); ++i) values.push_back(p[c.place[i]]);
-    const FillCase one = fill_case(model_, c.curve, options_, c.free, values);
-    const Opening opening{one.opening, true};
-    return simulate(one.chamber, options_.air, {&opening, 1}, c.curve.time, pressure);
   }
 
   const FillModel& model_;
@@ -134,37 +115,41 @@ class JointFill {
   std::vector<Parameter> parameters_;
 };
 
-// Returns the root mean square score over curves, each in % of its own range.
-Score score_over(std::span<const FittedFill> separate) {
-  Score out;
-  double sum = 0;
-  for (const FittedFill& t : separate) {
-    const Score& s = *t.fit.held_out;
-    out.points += s.points;
-    sum += s.rmse_percent * s.rmse_percent / static_cast<double>(separate.size());
-    out.max_percent = std::max(out.max_percent, s.max_percent);
-    out.rmse = std::max(out.rmse, s.rmse);
-    out.max = std::max(out.max, s.max);
-  }
-  out.rmse_percent = std::sqrt(sum);
-  return out;
-}
-
-// Fits of the single curves; `refused` if one of them is.
+// Fits of a model to the single curves; `refused` if one of them is.
 struct SeparateFits {
-  std::vector<FittedFill> curves;
+  std::vector<Fit> curves;
   std::string refused;
   double squares = 0;
+
+  // Returns the root mean square score over curves, each in % of its own range.
+  Score score() const {
+    Score out;
+    double sum = 0;
+    for (const Fit& fit : curves) {
+      const Score& s = *fit.held_out;
+      out.points += s.points;
+      sum += s.rmse_percent * s.rmse_percent / static_cast<double>(curves.size());
+      out.max_percent = std::max(out.max_percent, s.max_percent);
+      out.rmse = std::max(out.rmse, s.rmse);
+      out.max = std::max(out.max, s.max);
+    }
+    out.rmse_percent = std::sqrt(sum);
+    return out;
+  }
 };
 
-SeparateFits fit_separately(const FillModel& model, std::span<const Curve> curves,
-                            const ValveOptions& options) {
-  SeparateFits out;
+// Returns the separate fits of each model.
+std::vector<SeparateFits> fit_separately(std::span<const Curve> curves, const ValveOptions& options,
+                                         std::span<const FillModel> models) {
+  std::vector<SeparateFits> out(models.size());
   for (const Curve& c : curves) {
-    out.curves.push_back(try_fill(model, c, options, nullptr));
-    out.refused = out.curves.back().fit.refused;
-    out.squares += out.curves.back().squares;
-    if (!out.refused.empty()) break;
+    const Report report = fill_contest(c, options, models);
+    const std::vector<FillSquares> squares = squares_of(report);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i].curves.push_back(report.fits[i]);
+      out[i].squares += squares[i].found;
+      if (out[i].refused.empty()) out[i].refused = report.fits[i].refused;
+    }
   }
   return out;
 }
@@ -180,64 +165,30 @@ void leave_out_far_worse(std::vector<SeparateFits>& separate) {
                               std::sqrt(a.squares / least));
 }
 
-FittedFill fit_joined(const FillModel& model, std::span<const AddedFill> fills,
-                      std::span<const Curve> curves, const SeparateFits& separate,
-                      const ValveOptions& options, double range) {
-  FittedFill out;
-  out.fit = {.model = std::string(model.name),
-             .law = std::string(model.law),
-             .source = std::string(model.source),
-             .refused = separate.refused};
-  if (!separate.refused.empty()) return out;
-  std::vector<JointCurve> joined;
-  for (std::size_t i = 0; i < curves.size(); ++i)
-    joined.push_back({curves[i], fills[i].added, free_values(model, curves[i], options), {}});
+Candidate joined(const FillModel& model, std::span<const AddedFill> fills,
+                 std::span<const Curve> curves, const SeparateFits& separate,
+                 const ValveOptions& options) {
+  Candidate out{.model = std::string(model.name),
+                .law = std::string(model.law),
+                .source = std::string(model.source),
+                .options = fill_options,
+                .may_be_at_bounds = true,
+                .refused = separate.refused};
+  if (!out.refused.empty()) return out;
   try {
-    out.fit.refit = std::make_shared<Refit>(
-        JointFill(model, options, std::move(joined), separate.curves).solve());
-    const Solution& s = out.fit.refit->solution;
-    for (const double r : s.residuals) out.squares += r * r;
-    const double t = t_quantile(std::max(1, s.freedom));
-    out.acceptable = out.squares * (1 + t * t * s.inflation / std::max(1, s.freedom));
-    out.fit.parameters = s.estimates;
+    const JointFill fill(model, options, fills, curves, separate.curves);
+    out.parameters = fill.parameters();
+    out.predict = fill;
+  } catch (const Refusal& refusal) {
+    out.refused = refusal.what();
+  }
+  out.finish = [](const FitProblem&, std::span<const Solution>, Solution& s) {
     for (const Estimate& e : std::span(s.estimates).first(2))
       if (e.at_bound || !std::isfinite(e.high))
         throw Refusal(e.name, "nothing in the curves that determines it", "an interval",
                       "a larger added volume");
-    out.fit.fit = score(s.residuals, range);
-    out.fit.residuals = s.residuals;
-    out.fit.held_out = score_over(separate.curves);
-  } catch (const Refusal& refusal) {
-    out.fit.refused = refusal.what();
-  }
+  };
   return out;
-}
-
-// Widens both intervals to those of every model that the curves cannot distinguish from the best.
-void reach_over(std::span<const FittedFill> tried, Report& report) {
-  double acceptable = tried[report.chosen].squares;
-  const FittedFill* best = nullptr;
-  for (const FittedFill& t : tried)
-    if (t.fit.refused.empty() && (!best || t.squares < best->squares)) best = &t;
-  if (best) acceptable = std::max(acceptable, best->acceptable);
-  Fit& chosen = report.fits[report.chosen];
-  std::string names;
-  for (const FittedFill& t : tried) {
-    if (!t.fit.refused.empty() || t.squares > acceptable || t.fit.model == chosen.model) continue;
-    for (std::size_t i = 0; i < 2; ++i) {
-      Estimate& e = chosen.parameters[i];
-      e.low = std::min(e.low, t.fit.parameters[i].low);
-      e.high = std::max(e.high, t.fit.parameters[i].high);
-      e.standard_error = std::max(e.standard_error, 0.25 * (e.high - e.low));
-      e.identifiable &= half_of(e) <= well_known;
-    }
-    names += (names.empty() ? "" : ", ") + t.fit.model;
-  }
-  if (!names.empty())
-    chosen.notes.push_back(
-        "the curves do not distinguish the chamber from others, whose values the intervals "
-        "cover: " +
-        names);
 }
 
 void set_separated(const FillModel& model, const ValveOptions& options, const std::string& source,
@@ -293,13 +244,19 @@ std::vector<AddedFill> fills_by_column(const Measured& data) {
   return out;
 }
 
-FittedFill try_added(const FillModel& model, std::span<const AddedFill> fills,
-                     const ValveOptions& options) {
-  std::vector<Curve> curves;
-  double range = 0;
-  for (const AddedFill& fill : fills)
-    range = std::max(range, curves.emplace_back(curve_of(fill.data)).range());
-  return fit_joined(model, fills, curves, fit_separately(model, curves, options), options, range);
+void fit_added(std::span<const AddedFill> fills, std::span<const Curve> curves,
+               const ValveOptions& options, Report& report, std::span<const FillModel> models) {
+  std::vector<SeparateFits> separate = fit_separately(curves, options, models);
+  leave_out_far_worse(separate);
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < separate.size(); ++i)
+    candidates.push_back(joined(models[i], fills, curves, separate[i], options));
+  Trial trial;
+  for (const Curve& c : curves)
+    trial.measured.insert(trial.measured.end(), c.pressure.begin(), c.pressure.end());
+  fit_candidates(std::move(candidates), trial, report);
+  for (std::size_t i = 0; i < separate.size(); ++i)
+    if (report.fits[i].refused.empty()) report.fits[i].held_out = separate[i].score();
 }
 
 ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions& options) {
@@ -325,18 +282,15 @@ ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions&
     report.rows.group.insert(report.rows.group.end(), c.time.size(),
                              config::format_quantity(fill.added, "m3", "L", 4) + " joined");
   }
-  std::vector<SeparateFits> separate;
-  for (const FillModel& model : fill_models())
-    separate.push_back(fit_separately(model, curves, options));
-  leave_out_far_worse(separate);
-  std::vector<FittedFill> tried;
-  for (std::size_t i = 0; i < separate.size(); ++i)
-    tried.push_back(
-        fit_joined(fill_models()[i], fills, curves, separate[i], options, report.full_scale));
-  for (const FittedFill& t : tried) report.fits.push_back(t.fit);
+  fit_added(fills, curves, options, report);
+  const std::vector<FillSquares> squares = squares_of(report);
   conclude(report);
   refuse_poor_fit(fills.front().data, report, options.worst_fit);
-  reach_over(tried, report);
+  if (const std::string names = reach_over_models(squares, 2, report); !names.empty())
+    report.fits[report.chosen].notes.push_back(
+        "the curves do not distinguish the chamber from others, whose values the intervals "
+        "cover: " +
+        names);
   report.notes.emplace_back("the volumes that were joined are taken as exact");
   set_separated(fill_models()[report.chosen], options,
                 "sinew identify valve " + fills.front().data.file + " and others", out);

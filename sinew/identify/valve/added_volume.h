@@ -36,9 +36,11 @@ Separation expected_separation(double half, double ratio);
 // if there is no such column.
 std::vector<AddedFill> fills_by_column(const Measured& data);
 
-// Fits one model to all fillings: its first two parameters are C and V.
-FittedFill try_added(const FillModel& model, std::span<const AddedFill> fills,
-                     const ValveOptions& options);
+// Fits each model to all fillings, whose curves are given: the first two parameters are C and V.
+// All arguments must live until the report is concluded.
+void fit_added(std::span<const AddedFill> fills, std::span<const Curve> curves,
+               const ValveOptions& options, Report& report,
+               std::span<const FillModel> models = fill_models());
 
 // Identifies the valve from these fillings. Throws Refusal for fewer than two different volumes.
 ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions& options);

@@ -63,9 +63,13 @@ TEST(ValveAddedVolume, IntervalsHoldTheTruth) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     const std::vector<AddedFill> fills{filled(0, 2e3, 2 * seed, law),
                                        filled(5e-4, 2e3, 2 * seed + 1, law)};
-    const FittedFill t = try_added(*rigid, fills, isothermal());
-    ASSERT_TRUE(t.fit.refused.empty()) << t.fit.refused;
-    const Estimate &c = t.fit.parameters[0], &v = t.fit.parameters[1];
+    const std::vector<Curve> curves{curve_of(fills[0].data), curve_of(fills[1].data)};
+    const ValveOptions options = isothermal();
+    Report report{.full_scale = 1};
+    fit_added(fills, curves, options, report, {rigid, 1});
+    const Fit& fit = report.fits[0];
+    ASSERT_TRUE(fit.refused.empty()) << fit.refused;
+    const Estimate &c = fit.parameters[0], &v = fit.parameters[1];
     conductance += c.low <= true_conductance && true_conductance <= c.high;
     volume += v.low <= true_volume && true_volume <= v.high;
   }

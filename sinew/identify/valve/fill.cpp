@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sinew/gas/orifice.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify {
 
@@ -44,19 +45,17 @@ double conductance_at(const Curve& c, const gas::Air& air) {
 
 // Computes intervals of a solution with values at their bounds as if those were slightly
 // inside, from a solver with no steps.
-void widen(Solution& s, const Residuals& residuals, std::size_t rows,
-           std::span<const Parameter> parameters, SolverOptions options) {
-  if (std::none_of(s.estimates.begin(), s.estimates.end(),
-                   [](const Estimate& e) { return e.at_bound; }))
-    return;
-  std::vector<Parameter> inside(parameters.begin(), parameters.end());
+void widen(const FitProblem& problem, Solution& s) {
+  if (std::ranges::none_of(s.estimates, &Estimate::at_bound)) return;
+  std::vector<Parameter> inside = problem.parameters;
+  SolverOptions options = problem.options;
   for (std::size_t i = 0; i < inside.size(); ++i) {
     Parameter& p = inside[i];
     const double margin = std::min(2 * options.difference * p.scale, 0.25 * (p.high - p.low));
     p.start = std::clamp(s.values[i], p.low + margin, p.high - margin);
   }
   options.most_steps = 0;
-  const Solution free = least_squares(residuals, rows, inside, options);
+  const Solution free = least_squares(problem.residuals, problem.count, inside, options);
   const double change = s.rms > 0 && free.rms > 0 ? s.rms / free.rms : 1;
   for (std::size_t i = 0; i < inside.size(); ++i) {
     Estimate& e = s.estimates[i];
@@ -66,9 +65,57 @@ void widen(Solution& s, const Residuals& residuals, std::size_t rows,
     e.standard_error = change * free.estimates[i].standard_error;
     e.low = e.value - half;
     e.high = e.value + half;
-    const double size = std::max(std::abs(e.value), parameters[i].scale);
+    const double size = std::max(std::abs(e.value), inside[i].scale);
     e.identifiable = half <= options.widest_interval * size;
   }
+}
+
+// Returns starts spread over the possible values, as there may be several minima; empty: one is
+// enough. Before a narrow hose a small share of the volume fills fast, and C/V is less than the
+// first rise suggests.
+std::vector<std::vector<double>> spread_starts(const FillModel& model,
+                                               std::span<const FreeValue> free) {
+  struct Spread {
+    double share, factor, exponent;
+  };
+  constexpr Spread of_rigid[] = {{0, 1, 1.03}, {0, 1, 1.35}};
+  constexpr Spread more[] = {{0.2, 1, 1.05}, {0.2, 1, 1.35}, {0.02, 0.05, 1.2}, {0.7, 1, 1.1}};
+  std::vector<std::vector<double>> out;
+  if (model.shape == rigid && model.exponent > 0) return out;
+  for (const Spread& s :
+       model.shape == rigid ? std::span<const Spread>(of_rigid) : std::span<const Spread>(more)) {
+    std::vector<double>& one = out.emplace_back();
+    for (const FreeValue& f : free)
+      one.push_back(f.member == &Chamber::conductance ? s.factor * f.parameter.start
+                    : f.member == &Chamber::share     ? s.share
+                    : f.member == &Chamber::exponent  ? s.exponent
+                                                      : f.parameter.start);
+  }
+  return out;
+}
+
+// Returns why a model is not tried; empty: it is.
+std::string not_tried(const FillModel& model, const ValveOptions& options) {
+  if (model.leak && !options.port)
+    return "a leak and the port's pressure have the same effect; port=PRESSURE separates them";
+  const bool named = options.exponent == 1.0 || options.exponent == gas::heat_capacity_ratio;
+  if (options.exponent && (model.exponent > 0 ? model.exponent != *options.exponent : named))
+    return fmt::format("the exponent is known, {:g}", *options.exponent);
+  return "";
+}
+
+// Returns whether a row is held out: every second tenth of the change, without its ends.
+bool is_held_out(const Curve& c, std::size_t i) {
+  const double share = c.share(c.pressure[i]);
+  return share > 0.1 && share < 0.8 && static_cast<int>(10 * share) % 2 == 1;
+}
+
+// Throws Refusal if the curve does not determine C/V.
+void refuse_undetermined(const Solution& s) {
+  const Estimate& k = s["conductance_per_volume"];
+  if (k.at_bound) throw Refusal(k.name, "a fit at the bound of its range", "one within it", "");
+  if (!std::isfinite(k.high))
+    throw Refusal(k.name, "nothing in the curve that depends on it alone", "an interval", "");
 }
 
 }  // namespace
@@ -115,58 +162,53 @@ std::vector<FreeValue> free_values(const FillModel& model, const Curve& c,
   return out;
 }
 
-FillCase fill_case(const FillModel& model, const Curve& c, const ValveOptions& options,
-                   std::span<const FreeValue> free, std::span<const double> values) {
-  FillCase out;
-  out.chamber = {.shape = model.shape, .law = model.flow};
-  if (options.exponent) out.chamber.exponent = *options.exponent;
-  if (model.exponent > 0) out.chamber.exponent = model.exponent;
-  if (options.port) out.chamber.port = *options.port;
-  out.chamber.start = c.start;
-  out.opening = c.opening;
-  for (std::size_t i = 0; i < free.size(); ++i) {
-    if (free[i].member)
-      out.chamber.*free[i].member = values[i];
-    else
-      out.opening = values[i];
-  }
-  return out;
+bool predict_fill(const FillModel& model, const Curve& c, const ValveOptions& options,
+                  std::span<const FreeValue> free, std::span<const double> values,
+                  std::span<double> pressure) {
+  Chamber chamber{.shape = model.shape, .law = model.flow};
+  Opening opening{c.opening, true};
+  if (options.exponent) chamber.exponent = *options.exponent;
+  if (model.exponent > 0) chamber.exponent = model.exponent;
+  if (options.port) chamber.port = *options.port;
+  chamber.start = c.start;
+  for (std::size_t i = 0; i < free.size(); ++i)
+    (free[i].member ? chamber.*free[i].member : opening.time) = values[i];
+  return simulate(chamber, options.air, {&opening, 1}, c.time, pressure);
 }
 
-FitProblem fill_problem(const FillModel& model, const Curve& c, const ValveOptions& options,
-                        std::span<const std::size_t> keep) {
+Candidate fill_candidate(const FillModel& model, const Curve& c, const ValveOptions& options) {
   const std::vector<FreeValue> free = free_values(model, c, options);
-  FitProblem out{.count = keep.size(),
-                 .options = {.correlated = true,
-                             .most_steps = 60,
-                             .widest_interval = 0.25,
-                             .difference = 1e-3},
-                 .constraints = {}};
+  Candidate out{.model = std::string(model.name),
+                .law = std::string(model.law),
+                .source = std::string(model.source),
+                .starts = spread_starts(model, free),
+                .search_tolerance = 0,
+                .search_steps = 12,
+                .options = fill_options,
+                .may_be_at_bounds = true,
+                .refused = not_tried(model, options)};
   for (const FreeValue& f : free) out.parameters.push_back(f.parameter);
-  out.residuals = [&model, &c, &options, free, rows = std::vector(keep.begin(), keep.end()),
-                   all = std::vector<double>(c.time.size())](std::span<const double> p,
-                                                             std::span<double> r) mutable {
-    const FillCase fill = fill_case(model, c, options, free, p);
-    const Opening opening{fill.opening, true};
-    if (!simulate(fill.chamber, options.air, {&opening, 1}, c.time, all)) return false;
-    for (std::size_t i = 0; i < rows.size(); ++i) r[i] = all[rows[i]] - c.pressure[rows[i]];
-    return true;
+  out.predict = [&model, &c, &options, free](std::span<const double> p, std::span<double> values) {
+    return predict_fill(model, c, options, free, p, values);
+  };
+  out.finish = [](const FitProblem& problem, std::span<const Solution>, Solution& s) {
+    widen(problem, s);
+    refuse_undetermined(s);
   };
   return out;
 }
 
-Refit fit_fill(const FillModel& model, const Curve& c, const ValveOptions& options,
-               std::span<const std::size_t> keep, std::span<const std::vector<double>> starts) {
-  FitProblem of = fill_problem(model, c, options, keep);
-  std::vector<std::vector<double>> from(starts.begin(), starts.end());
-  if (from.size() > 1) {
-    SolverOptions rough = of.options;
-    rough.most_steps = 12;
-    from = {least_squares_from(of.residuals, of.count, of.parameters, from, rough).values};
-  }
-  Solution s = least_squares_from(of.residuals, of.count, of.parameters, from, of.options);
-  widen(s, of.residuals, of.count, of.parameters, of.options);
-  return {std::move(of), std::move(s)};
+Report fill_contest(const Curve& c, const ValveOptions& options,
+                    std::span<const FillModel> models) {
+  Report out{.full_scale = c.range()};
+  std::vector<Candidate> candidates;
+  for (const FillModel& model : models) candidates.push_back(fill_candidate(model, c, options));
+  Split tenths;
+  for (std::size_t i = 0; i < c.time.size(); ++i)
+    (is_held_out(c, i) ? tenths.held_out : tenths.fitted).push_back(i);
+  fit_candidates(std::move(candidates),
+                 {.measured = c.pressure, .splits = {tenths}, .has_band = false}, out);
+  return out;
 }
 
 }  // namespace sinew::identify

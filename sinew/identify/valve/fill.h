@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/identify/contest/fit.h"
+#include "sinew/identify/contest/contest.h"
 #include "sinew/identify/valve/chamber.h"
 #include "sinew/identify/valve/curve.h"
 #include "sinew/identify/valve/valve.h"
@@ -25,27 +25,33 @@ struct FillModel {
 // Returns all models.
 std::span<const FillModel> fill_models();
 
+// Options of a fit of fillings.
+inline const SolverOptions fill_options{
+    .correlated = true, .most_steps = 60, .widest_interval = 0.25, .difference = 1e-3};
+
 // A parameter and its place in the chamber; null: the opening instant.
 struct FreeValue {
   Parameter parameter;
   double Chamber::*member = nullptr;
 };
 
-// A chamber with trial values.
-struct FillCase {
-  Chamber chamber;
-  double opening = 0;  // [s]
-};
-
 // Returns the free parameters of a model, with start values from the curve.
 std::vector<FreeValue> free_values(const FillModel& model, const Curve& curve,
                                    const ValveOptions& options);
-FillCase fill_case(const FillModel& model, const Curve& curve, const ValveOptions& options,
-                   std::span<const FreeValue> free, std::span<const double> values);
 
-// Fits the rows in `keep`. A value at a bound may be an artefact of the model, so the intervals of
-// the others treat it as free.
-Refit fit_fill(const FillModel& model, const Curve& curve, const ValveOptions& options,
-               std::span<const std::size_t> keep, std::span<const std::vector<double>> starts);
+// Returns the model of one filling; its first parameter is C/V. A value at a bound may be an
+// artefact of the model, so the intervals of the others treat it as free. All arguments must live
+// until the report is concluded.
+Candidate fill_candidate(const FillModel& model, const Curve& curve, const ValveOptions& options);
+
+// Returns the fits of the models to the curve, scored on every second tenth of its way.
+Report fill_contest(const Curve& curve, const ValveOptions& options,
+                    std::span<const FillModel> models = fill_models());
+
+// Returns the predicted pressures at the times of the curve. Returns false if the values are not
+// valid.
+bool predict_fill(const FillModel& model, const Curve& curve, const ValveOptions& options,
+                  std::span<const FreeValue> free, std::span<const double> values,
+                  std::span<double> pressure);
 
 }  // namespace sinew::identify

@@ -164,11 +164,9 @@ Trials trials_of(const FillModel& model, const Chamber& truth, const char* name,
     std::vector<double> p = clean;
     add_noise(p, noise, seed);
     const Curve c = curve_of(table(t, p));
-    std::vector<double> start;
-    for (const FreeValue& f : free_values(model, c, options)) start.push_back(f.parameter.start);
-    std::vector<std::size_t> all(c.time.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    const Solution s = fit_fill(model, c, options, all, {&start, 1}).solution;
+    Candidate one = fill_candidate(model, c, options);
+    one.starts.clear();
+    const Solution s = solve(one, c.pressure);
     const Estimate& e = s[name];
     out.covered += e.low <= value && value <= e.high;
     out.bias += (e.value / value - 1) / static_cast<double>(count);

@@ -9,30 +9,37 @@
 
 namespace sinew::identify {
 
-void refuse_undetermined(const Solution& s) {
-  const Estimate& k = s["conductance_per_volume"];
-  if (k.at_bound) throw Refusal(k.name, "a fit at the bound of its range", "one within it", "");
-  if (!std::isfinite(k.high))
-    throw Refusal(k.name, "nothing in the curve that depends on it alone", "an interval", "");
+std::vector<FillSquares> squares_of(const Report& report) {
+  std::vector<FillSquares> out;
+  for (const Fit& fit : report.fits) {
+    FillSquares& one = out.emplace_back();
+    if (!fit.refused.empty()) continue;
+    const Solution& s = fit.refit->solution;
+    for (const double r : s.residuals) one.found += r * r;
+    const int freedom = std::max(1, s.freedom);
+    const double t = t_quantile(freedom);
+    one.acceptable = one.found * (1 + t * t * s.inflation / freedom);
+  }
+  return out;
 }
 
-void reach_for_fixed(std::span<FittedFill> tried) {
+void reach_for_fixed(std::span<const FillSquares> squares, Report& report) {
   const std::span<const FillModel> models = fill_models();
   for (std::size_t i = 0; i < models.size(); ++i)
     for (std::size_t k = 0; k < models.size(); ++k) {
       const FillModel &free = models[i], &fixed = models[k];
       if (free.exponent != 0 || fixed.exponent == 0 || free.shape != fixed.shape ||
-          free.flow != fixed.flow || !tried[i].fit.refused.empty() ||
-          !tried[k].fit.refused.empty() || tried[k].squares > tried[i].acceptable)
+          free.flow != fixed.flow || !report.fits[i].refused.empty() ||
+          !report.fits[k].refused.empty() || squares[k].found > squares[i].acceptable)
         continue;
-      for (Estimate& e : tried[i].fit.parameters) {
+      for (Estimate& e : report.fits[i].parameters) {
         if (e.at_bound) continue;
         if (e.name == "polytropic_exponent") {
           e.low = std::min(e.low, fixed.exponent);
           e.high = std::max(e.high, fixed.exponent);
           e.identifiable = false;
         }
-        for (const Estimate& other : tried[k].fit.parameters) {
+        for (const Estimate& other : report.fits[k].parameters) {
           if (other.name != e.name) continue;
           e.low = std::min(e.low, other.low);
           e.high = std::max(e.high, other.high);
@@ -42,42 +49,46 @@ void reach_for_fixed(std::span<FittedFill> tried) {
     }
 }
 
-void refuse_undetermined_models(std::span<FittedFill> tried, double worst_fit) {
-  const auto open = [](const Fit& fit) { return !(half_of(fit.parameters.front()) <= 1); };
-  const bool others = std::any_of(tried.begin(), tried.end(), [&](const FittedFill& t) {
-    return t.fit.refused.empty() && t.fit.fit.rmse_percent <= worst_fit && !open(t.fit);
+void refuse_undetermined_models(Report& report, double worst_fit) {
+  const auto is_open = [](const Fit& fit) { return !(half_of(fit.parameters.front()) <= 1); };
+  const bool others = std::ranges::any_of(report.fits, [&](const Fit& fit) {
+    return fit.refused.empty() && fit.fit.rmse_percent <= worst_fit && !is_open(fit);
   });
   if (!others) return;
-  for (FittedFill& t : tried)
-    if (t.fit.refused.empty() && open(t.fit))
-      t.fit.refused =
-          fmt::format("leaves C/V open by +- {:.0f} %", 100 * half_of(t.fit.parameters.front()));
+  for (Fit& fit : report.fits)
+    if (fit.refused.empty() && is_open(fit))
+      fit.refused =
+          fmt::format("leaves C/V open by +- {:.0f} %", 100 * half_of(fit.parameters.front()));
 }
 
-void reach_over_models(std::span<const FittedFill> tried, Report& report) {
-  const FittedFill* best = &tried[report.chosen];
-  for (const FittedFill& t : tried)
-    if (t.fit.refused.empty() && t.squares < best->squares) best = &t;
-  const double acceptable = std::max(best->acceptable, tried[report.chosen].squares);
+std::string reach_over_models(std::span<const FillSquares> squares, std::size_t count,
+                              Report& report) {
+  const std::vector<Fit>& fits = report.fits;
+  std::size_t best = report.chosen;
+  for (std::size_t i = 0; i < fits.size(); ++i)
+    if (fits[i].refused.empty() && squares[i].found < squares[best].found) best = i;
+  const double acceptable = std::max(squares[best].acceptable, squares[report.chosen].found);
 
-  Fit& chosen = report.fits[report.chosen];
-  Estimate& k = chosen.parameters.front();
+  const std::span<Estimate> known = std::span(report.fits[report.chosen].parameters).first(count);
   std::string names;
-  for (const FittedFill& t : tried) {
-    if (!t.fit.refused.empty() || t.squares > acceptable) continue;
-    const Estimate& other = t.fit.parameters.front();
-    if (t.fit.model != chosen.model && (other.low < k.low || other.high > k.high))
-      names += (names.empty() ? "" : ", ") + t.fit.model;
-    k.low = std::min(k.low, other.low);
-    k.high = std::max(k.high, other.high);
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (i == report.chosen || !fits[i].refused.empty() || squares[i].found > acceptable) continue;
+    bool is_wider = count > 1;
+    for (std::size_t k = 0; k < count; ++k) {
+      Estimate& e = known[k];
+      const Estimate& other = fits[i].parameters[k];
+      is_wider = is_wider || other.low < e.low || other.high > e.high;
+      e.low = std::min(e.low, other.low);
+      e.high = std::max(e.high, other.high);
+    }
+    if (is_wider) names += (names.empty() ? "" : ", ") + fits[i].model;
   }
-  if (names.empty()) return;
-  k.standard_error = 0.25 * (k.high - k.low);
-  k.identifiable = half_of(k) <= well_known;
-  chosen.notes.push_back(
-      "the curve does not distinguish the chamber from others, and the interval of C/V covers "
-      "them: " +
-      names);
+  if (names.empty()) return names;
+  for (Estimate& e : known) {
+    e.standard_error = std::max(e.standard_error, 0.25 * (e.high - e.low));
+    e.identifiable &= half_of(e) <= well_known;
+  }
+  return names;
 }
 
 }  // namespace sinew::identify

@@ -20,95 +20,24 @@ bool of_the_record(std::string_view name) {
   return name == "start_pressure" || name == "opening_instant";
 }
 
-std::vector<std::size_t> all_rows(const Curve& c) {
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < c.time.size(); ++i) out.push_back(i);
-  return out;
-}
-
-// Returns whether a row is held out: every second tenth of the change, without its ends.
-bool held_out(const Curve& c, std::size_t i) {
-  const double share = c.share(c.pressure[i]);
-  return share > 0.1 && share < 0.8 && static_cast<int>(10 * share) % 2 == 1;
-}
-
-std::vector<double> starts_of(std::span<const FreeValue> free) {
-  std::vector<double> out;
-  for (const FreeValue& f : free) out.push_back(f.parameter.start);
-  return out;
-}
-
-// Returns starts spread over the possible values, as there may be several minima. Before a narrow
-// hose a small share of the volume fills fast, and C/V is less than the first rise suggests.
-std::vector<std::vector<double>> spread_starts(const FillModel& model,
-                                               std::span<const FreeValue> free) {
-  struct Spread {
-    double share, factor, exponent;
-  };
-  constexpr Spread rigid[] = {{0, 1, 1.03}, {0, 1, 1.35}};
-  constexpr Spread more[] = {{0.2, 1, 1.05}, {0.2, 1, 1.35}, {0.02, 0.05, 1.2}, {0.7, 1, 1.1}};
-  std::vector<std::vector<double>> out;
-  const bool rigid_only = model.shape == Chamber::Shape::rigid;
-  for (const Spread& s :
-       rigid_only ? std::span<const Spread>(rigid) : std::span<const Spread>(more)) {
-    std::vector<double> one = starts_of(free);
-    for (std::size_t i = 0; i < free.size(); ++i) {
-      if (free[i].member == &Chamber::conductance) one[i] *= s.factor;
-      if (free[i].member == &Chamber::share) one[i] = s.share;
-      if (free[i].member == &Chamber::exponent) one[i] = s.exponent;
-    }
-    out.push_back(one);
-    if (rigid_only && model.exponent > 0) break;
-  }
-  return out;
-}
-
-std::vector<double> predict(const FillModel& model, const Curve& c, const ValveOptions& options,
-                            std::span<const double> values) {
-  const std::vector<FreeValue> free = free_values(model, c, options);
-  const FillCase fill = fill_case(model, c, options, free, values);
-  const Opening opening{fill.opening, true};
-  std::vector<double> out(c.time.size());
-  if (!simulate(fill.chamber, options.air, {&opening, 1}, c.time, out))
-    throw Refusal("model", "no value", "a pressure", "");
-  return out;
-}
-
-Score score_tenths(const FillModel& model, const Curve& c, const ValveOptions& options,
-                   const Solution& whole) {
-  std::vector<std::size_t> keep;
-  for (std::size_t i = 0; i < c.time.size(); ++i)
-    if (!held_out(c, i)) keep.push_back(i);
-  const Solution part = fit_fill(model, c, options, keep, {&whole.values, 1}).solution;
-  const std::vector<double> all = predict(model, c, options, part.values);
-  std::vector<double> errors;
-  for (std::size_t i = 0; i < c.time.size(); ++i)
-    if (held_out(c, i)) errors.push_back(all[i] - c.pressure[i]);
-  return score(errors, c.range());
-}
-
 // Scores the model on another record: model values are kept, start pressure and opening instant are
 // fitted.
 Score score_other(const FillModel& model, const Curve& other, const ValveOptions& options,
                   const Solution& found) {
   const std::vector<FreeValue> free = free_values(model, other, options);
-  std::vector<double> values = starts_of(free);
+  std::vector<double> values;
   std::vector<Parameter> record;
   std::vector<std::size_t> index;
   for (std::size_t i = 0; i < free.size(); ++i) {
     const Parameter& p = free[i].parameter;
-    if (of_the_record(p.name)) {
-      record.push_back(p);
-      index.push_back(i);
-    } else {
-      values[i] = found[p.name].value;
-    }
+    values.push_back(of_the_record(p.name) ? p.start : found[p.name].value);
+    if (!of_the_record(p.name)) continue;
+    record.push_back(p);
+    index.push_back(i);
   }
   const auto residuals = [&](std::span<const double> p, std::span<double> r) {
     for (std::size_t i = 0; i < p.size(); ++i) values[index[i]] = p[i];
-    const FillCase fill = fill_case(model, other, options, free, values);
-    const Opening opening{fill.opening, true};
-    if (!simulate(fill.chamber, options.air, {&opening, 1}, other.time, r)) return false;
+    if (!predict_fill(model, other, options, free, values, r)) return false;
     for (std::size_t i = 0; i < r.size(); ++i) r[i] -= other.pressure[i];
     return true;
   };
@@ -129,6 +58,20 @@ void add_correlation_notes(const Solution& s, Fit& fit) {
     }
   for (const std::string& direction : s.undetermined)
     fit.notes.push_back("the curve does not determine " + direction);
+}
+
+// Adds notes to the fit of a model, and its score on another record, if not null.
+void complete(const FillModel& model, const Curve* other, const ValveOptions& options, Fit& fit) {
+  if (!fit.refused.empty()) return;
+  const Solution& s = fit.refit->solution;
+  fit.parameters.front().identifiable &= half_of(fit.parameters.front()) <= well_known;
+  add_correlation_notes(s, fit);
+  if (!other) return;
+  try {
+    fit.held_out = score_other(model, *other, options, s);
+  } catch (const Refusal& refusal) {
+    fit.refused = refusal.what();
+  }
 }
 
 // Adds conductance or volume, from C/V and the other of the two.
@@ -205,45 +148,6 @@ void describe(const Curve& c, const ValveOptions& options, const Estimate& alone
 
 }  // namespace
 
-FittedFill try_fill(const FillModel& model, const Curve& c, const ValveOptions& options,
-                    const Curve* other) {
-  FittedFill out;
-  Fit& fit = out.fit;
-  fit.model = model.name;
-  fit.law = model.law;
-  fit.source = model.source;
-  if (model.leak && !options.port) {
-    fit.refused =
-        "a leak and the port's pressure have the same effect; port=PRESSURE separates them";
-    return out;
-  }
-  const bool named = options.exponent == 1.0 || options.exponent == gas::heat_capacity_ratio;
-  if (options.exponent && (model.exponent > 0 ? model.exponent != *options.exponent : named)) {
-    fit.refused = fmt::format("the exponent is known, {:g}", *options.exponent);
-    return out;
-  }
-  const std::vector<FreeValue> free = free_values(model, c, options);
-  try {
-    fit.refit = std::make_shared<Refit>(
-        fit_fill(model, c, options, all_rows(c), spread_starts(model, free)));
-    const Solution& s = fit.refit->solution;
-    refuse_undetermined(s);
-    for (const double r : s.residuals) out.squares += r * r;
-    const double t = t_quantile(s.freedom);
-    out.acceptable = out.squares * (1 + t * t * s.inflation / s.freedom);
-    fit.parameters = s.estimates;
-    fit.parameters.front().identifiable &= half_of(fit.parameters.front()) <= well_known;
-    fit.fit = score(s.residuals, c.range());
-    fit.residuals = s.residuals;
-    add_correlation_notes(s, fit);
-    fit.held_out =
-        other ? score_other(model, *other, options, s) : score_tenths(model, c, options, s);
-  } catch (const Refusal& refusal) {
-    fit.refused = refusal.what();
-  }
-  return out;
-}
-
 void refuse_unsettled(const Measured& data, const Curve& c, const ValveOptions& options) {
   if (c.settled || options.port) return;
   throw Refusal(data.file + ": pressure",
@@ -273,26 +177,29 @@ ValveResult identify_fill(const Measured& data, const ValveOptions& options,
 
   ValveResult out = before(options);
   Report& report = out.report;
+  report = fill_contest(c, options);
   report.subject =
       fmt::format("{} of a chamber through a valve", c.fills() ? "filling" : "venting");
   report.quantity = "pressure";
   report.unit = "Pa diff";
-  report.full_scale = c.range();
   report.full_scale_is = "the pressure's range";
   report.not_shown = {"the flow in the other direction, and how fast the valve switches"};
   report.held_out_is = other ? other->file + ", with its own start and opening instant"
                              : "every second tenth of the way, 10 to 20 % up to 70 to 80 %";
-  std::vector<FittedFill> tried;
-  for (const FillModel& model : fill_models())
-    tried.push_back(try_fill(model, c, options, unseen ? &*unseen : nullptr));
-  reach_for_fixed(tried);
-  refuse_undetermined_models(tried, options.worst_fit);
-  for (const FittedFill& t : tried) report.fits.push_back(t.fit);
+  for (std::size_t i = 0; i < report.fits.size(); ++i)
+    complete(fill_models()[i], unseen ? &*unseen : nullptr, options, report.fits[i]);
+  const std::vector<FillSquares> squares = squares_of(report);
+  reach_for_fixed(squares, report);
+  refuse_undetermined_models(report, options.worst_fit);
   report.rows = {
       .x = "time", .x_unit = "s", .unit = "Pa abs", .at = c.time, .measured = c.pressure};
   conclude(report);
   const Estimate alone = report.best().parameters.front();
-  reach_over_models(tried, report);
+  if (const std::string names = reach_over_models(squares, 1, report); !names.empty())
+    report.fits[report.chosen].notes.push_back(
+        "the curve does not distinguish the chamber from others, and the interval of C/V covers "
+        "them: " +
+        names);
   for (std::size_t i = 0; i < report.fits.size(); ++i)
     if (report.fits[i].refused.empty()) divide(fill_models()[i], options, report.fits[i]);
   refuse_poor_fit(data, report, options.worst_fit);
