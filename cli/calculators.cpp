@@ -242,64 +242,64 @@ ExitCode run_kinematics(const KinematicsOptions& options) {
 
 void add_actuator(CLI::App& app, Action& action) {
   CLI::App& sub =
-      subcommand(app, "actuator", "tension, stiffness and geometry of one braided actuator",
+      subcommand(app, "actuator", "Compute tension, stiffness and geometry of one braided actuator",
                  "sinew actuator robots/leg/actuator.toml --length 2.5in:3.9in:0.2in --pressure "
                  "\"60 psi gauge\" --velocity \"-2 in/s\"");
   ActuatorOptions& options = runs(sub, action, run_actuator);
   sub.add_option("FILE", options.file, "actuator, robot or experiment file")->required();
-  sub.add_option("--length", options.length, "a length, or from:to:step")->required();
-  sub.add_option("--pressure", options.pressure, "gauge or abs, or from:to:step")->required();
+  sub.add_option("--length", options.length, "QUANTITY: length, or from:to:step")->required();
+  sub.add_option("--pressure", options.pressure, "QUANTITY: pressure, or from:to:step")->required();
   sub.add_option("--velocity", options.velocity,
-                 "of the length, below 0 while it contracts: the tension with its losses, [33]");
-  sub.add_option("--name", options.name, "which actuator, where the file has several");
+                 "QUANTITY: velocity, below 0 while contracting; adds losses to the tension, [33]");
+  sub.add_option("--name", options.name, "NAME: actuator, where the file has several");
   sub.add_option("--external-volume", options.external_volume,
-                 "of hose and fittings, for the stiffness with valves shut; 0");
-  add_units(sub, options.units, "of what is printed, else SI and inches; --json is in SI");
-  add_flags(sub, options, "", "as JSON, SI");
+                 "QUANTITY: volume of hose and fittings, for stiffness at shut valves; default: 0");
+  add_units(sub, options.units, "printed numbers (default: SI and inches); --json is in SI");
+  add_flags(sub, options, "", "print the result as JSON, in SI");
 }
 
 void add_valve(CLI::App& app, Action& action) {
   CLI::App& sub =
-      subcommand(app, "valve", "flow, filling times and delays of a valve",
+      subcommand(app, "valve", "Compute flow, filling times and delays of a valve",
                  "sinew valve robots/leg/valves.toml inlet --upstream \"100 psi gauge\" "
                  "--downstream \"0 psi gauge\" --volume \"1 in3\"");
   ValveOptions& options = runs(sub, action, run_valve);
   sub.add_option("FILE", options.file, "valves, robot or experiment file")->required();
-  sub.add_option("NAME", options.name, "of the valve")->required();
-  sub.add_option("--upstream", options.upstream, "pressure, gauge or abs")->required();
-  sub.add_option("--downstream", options.downstream, "pressure, gauge or abs")->required();
+  sub.add_option("NAME", options.name, "name of the valve")->required();
+  sub.add_option("--upstream", options.upstream, "QUANTITY: pressure before the valve")->required();
+  sub.add_option("--downstream", options.downstream, "QUANTITY: pressure behind it")->required();
   CLI::Option* volume =
-      sub.add_option("--volume", options.volume, "rigid, to be filled and vented");
-  CLI::Option* walls =
-      sub.add_option("--wall-time", options.wall_time,
-                     "of the heat between its air and walls; else both limits, or the file's");
+      sub.add_option("--volume", options.volume, "QUANTITY: rigid volume to fill and to vent");
+  CLI::Option* walls = sub.add_option("--wall-time", options.wall_time,
+                                      "QUANTITY: time constant of the heat between air and walls; "
+                                      "default: both limits, or the file's");
   walls->needs(volume);
-  sub.add_option("--exponent", options.exponent, "by a polytrope, as the air of a muscle's file")
+  sub.add_option("--exponent", options.exponent, "polytropic exponent, as in a muscle's file")
       ->needs(volume)
       ->excludes(walls);
   CLI::Option* duty =
-      sub.add_option("--duty", options.duty, "share of the period, or from:to:step");
-  sub.add_option("--frequency", options.frequency, "of the pulses; 100 Hz")->needs(duty);
-  add_units(sub, options.units, "of what is printed; --json is in SI");
-  add_flags(sub, options, "", "as JSON, SI");
+      sub.add_option("--duty", options.duty, "DUTY: share of the period, or from:to:step");
+  sub.add_option("--frequency", options.frequency, "pulse frequency; default: 100 Hz")->needs(duty);
+  add_units(sub, options.units, "printed numbers; --json is in SI");
+  add_flags(sub, options, "", "print the result as JSON, in SI");
 }
 
 void add_kinematics(CLI::App& app, Action& action) {
-  CLI::App& sub =
-      subcommand(app, "kinematics", "foot to joint angles, muscle lengths and torques, and back",
-                 "sinew kinematics robots/leg/robot.toml --foot \"-2 in, -13 in\" "
-                 "--force \"0 lbf, -20 lbf\"");
+  CLI::App& sub = subcommand(app, "kinematics",
+                             "Convert foot to joint angles, muscle lengths, torques, and back",
+                             "sinew kinematics robots/leg/robot.toml --foot \"-2 in, -13 in\" "
+                             "--force \"0 lbf, -20 lbf\"");
   KinematicsOptions& options = runs(sub, action, run_kinematics);
   sub.add_option("ROBOT", options.file, "robot or experiment file")->required();
-  sub.add_option("--leg", options.leg, "of a robot with several: its name");
+  sub.add_option("--leg", options.leg, "NAME: leg of a robot that has several");
   CLI::App& target = alternatives(sub, "target");
   target.add_option("--foot", options.request.foot,
-                    "x, y about the first joint: all ways to stand there");
-  target.add_option("--angles", options.request.angles, "one per joint, in the robot's order");
+                    "X,Y: foot position from the first joint; gives all ways to stand there");
+  target.add_option("--angles", options.request.angles, "ANGLES: one per joint, in robot order");
   sub.add_option("--force", options.request.force,
-                 "x, y of what the foot pushes with: the joints' torques for it, [71]");
-  add_units(sub, options.units, "of what is printed, else those of the robot's file");
-  sub.add_flag("--json", options.json, "as JSON, SI");
+                 "X,Y: force with which the foot pushes; gives the joints' torques, [71]");
+  add_units(sub, options.units, "printed numbers (default: those of the robot's file)");
+  sub.add_flag("--json", options.json, "print the result as JSON, in SI");
 }
 
 }  // namespace sinew::cli

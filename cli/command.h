@@ -39,7 +39,7 @@ struct Flags {
   bool force = false, json = false, quiet = false;
 };
 void add_flags(CLI::App& sub, Flags& flags, const char* force, const char* json,
-               const char* quiet = "only errors on stderr");
+               const char* quiet = "print only errors to stderr");
 
 // Returns a group of options of which just one is to be given.
 CLI::App& alternatives(CLI::App& sub, const std::string& name);
@@ -53,7 +53,7 @@ CLI::Validator passes(std::function<std::string(const std::string&)> wrong);
 // Adds `--set key=value`, any number of times; one value each, so that the next word is not taken
 // for a value.
 inline void add_sets(CLI::App& sub, std::vector<std::string>& sets) {
-  sub.add_option("--set", sets, "a value instead of the file's: key=value; may be repeated")
+  sub.add_option("--set", sets, "KEY=VALUE: value to use in place of the file's")
       ->allow_extra_args(false);
 }
 

@@ -177,9 +177,9 @@ void add_completion(CLI::App& app, Action& action) {
   auto shell = std::make_shared<std::string>();
   auto line = std::make_shared<std::string>();
   CLI::App& sub =
-      subcommand(app, "completion", "what bash, zsh or fish needs to complete a line of sinew",
+      subcommand(app, "completion", "Print the script with which a shell completes lines of sinew",
                  "source <(sinew completion bash)");
-  sub.add_option("SHELL", *shell, "the shell")->required()->check(one_of({"bash", "zsh", "fish"}));
+  sub.add_option("SHELL", *shell, "shell")->required()->check(one_of({"bash", "zsh", "fish"}));
   CLI::Option* of_script = sub.add_option("--line", *line, "of the scripts")->group("");
   sub.callback([=, &app, &action] {
     action = [=, &app] {

@@ -64,34 +64,33 @@ void add_options_of_runs(CLI::App& sub, FiguresOptions& o, CLI::Option* thesis) 
   const auto add_flag = [&](const char* name, bool& value, const char* text) {
     sub.add_flag(name, value, text)->excludes(thesis);
   };
-  add("--only", o.drawing.only, "of runs: these figures alone");
+  add("--only", o.drawing.only, "NAME: for runs: draw only these figures");
   add("--channels", o.drawing.channels,
-      "of runs: a figure of these, \"/joint/*/angle,/muscle/*/tension\"; a comma begins a plot "
-      "below; may be repeated")
+      "CHANNELS: for runs: draw a figure of these channels, \"/joint/*/angle,/muscle/*/tension\"; "
+      "a comma begins a plot below")
       ->allow_extra_args(false);
-  add_flag("--overlay", o.overlay, "the runs in the same axes; needs -o");
-  add("--label", o.labels, "name of a run, in their order; the runs are in the same axes")
+  add_flag("--overlay", o.overlay, "draw all runs in the same axes; needs -o");
+  add("--label", o.labels, "NAME: name of a run, in their order; draws them in the same axes")
       ->allow_extra_args(false);
   CLI::Option* align =
-      add("--align", o.align,
-          "how the others are aligned with the first run: start, event or correlation; start")
+      add("--align", o.align, "how to align the other runs with the first; default: start")
           ->check(one_of({"start", "event", "correlation"}));
-  add("--event", o.event, "of --align event: '/joint/elbow/angle > 10 deg'; else the first motion")
+  add("--event", o.event, "EVENT: for event: '/joint/elbow/angle > 10 deg'; default: first motion")
       ->needs(align);
-  add("--clock", o.clock, "fit: the rate of another run's clock is taken out, too; none")
+  add("--clock", o.clock, "fit: correct the clock rates of the other runs; default: none")
       ->check(one_of({"none", "fit"}))
       ->needs(align);
-  add("--title", o.drawing.title, "above the picture, of one figure");
-  add("--width", o.width, "of the picture; \"89 mm\"");
-  add("--height", o.height, "of the picture; else by the number of its plots");
-  add("--font", o.font, "size of the letters; \"7 pt\"");
-  add("--labels", o.labels_file, "a file with labels in your language");
-  add_flag("--labels-template", o.labels_template, "print such a file, for these figures");
-  add("--units", o.drawing.units, "of runs: si, thesis, metric, or metric,length=cm; else as set");
-  add("--from", o.from, "of runs: \"2 s\"; what was before is left out");
-  add("--to", o.to, "of runs: what was after is left out");
-  add("--machine", o.drawing.machine,
-      "of runs: what was run, in place of the folder's resolved.toml");
+  add("--title", o.drawing.title, "TITLE: title above the picture, for a single figure");
+  add("--width", o.width, "QUANTITY: width of the picture; default: 89 mm");
+  add("--height", o.height, "QUANTITY: height of the picture; default: by the number of its plots");
+  add("--font", o.font, "QUANTITY: size of the letters; default: 7 pt");
+  add("--labels", o.labels_file, "FILE: labels in your language; see --labels-template");
+  add_flag("--labels-template", o.labels_template, "print labels of these figures, for --labels");
+  add("--units", o.drawing.units,
+      "UNITS: for runs: si, thesis, metric, or metric,length=cm; default: as in the settings");
+  add("--from", o.from, "TIME: for runs: draw from this time on, \"2 s\"");
+  add("--to", o.to, "TIME: for runs: draw up to this time, \"5 s\"");
+  add("--machine", o.drawing.machine, "FILE: for runs: machine; default: the run's resolved.toml");
 }
 
 // Returns nothing where the runs begin together.
@@ -210,24 +209,23 @@ ExitCode draw_thesis(const FiguresOptions& request) {
 void add_figures(CLI::App& app, Action& action) {
   auto options = std::make_shared<FiguresOptions>();
   CLI::App& sub = subcommand(
-      app, "figures", "figures for print, with the CSV behind each: of runs, or the thesis's",
+      app, "figures", "Draw figures for print, with the CSV behind each: of runs or the thesis",
       "sinew figures runs/walk-test-1/1 --format pdf --width \"84 mm\" --units metric\n"
       "  sinew figures mine runs/arm/1 --label measured --label simulated -o figures\n"
       "  sinew figures muscle.toml --format pdf\n"
       "  sinew figures --thesis -o figures");
   CLI::Option* runs =
-      sub.add_option("DIR", options->runs, "folders of runs, log files, or files of muscles");
-  CLI::Option* thesis = sub.add_flag("--thesis", options->thesis, "those of Colbrunn (2000)");
+      sub.add_option("DIR", options->runs, "run folders, log files or muscle files");
+  CLI::Option* thesis = sub.add_flag("--thesis", options->thesis, "draw those of Colbrunn (2000)");
   runs->excludes(thesis);
   sub.add_option(
       "-o,--output", options->out,
-      "folder for the figures and index.json; of runs: else figures/ in the log's folder");
-  sub.add_option("--root", options->root, "--thesis: folder of robots/ and experiments/; .");
-  sub.add_option("--format", options->formats, "pdf, svg, png or csv; svg,png")
+      "DIR: folder for the figures and index.json; default for runs: figures/ in the log's folder");
+  sub.add_option("--root", options->root, "DIR: parent of robots/, for --thesis; default: .");
+  sub.add_option("--format", options->formats, "FORMAT: pdf, svg, png or csv; default: svg,png")
       ->allow_extra_args(false);
   add_options_of_runs(sub, *options, thesis);
-  add_flags(sub, *options, "replace the figures that are there",
-            "print index.json; of runs all of them");
+  add_flags(sub, *options, "replace existing figures", "print index.json, for runs all of them");
   sub.callback([=, &action] {
     if (!options->thesis && options->runs.empty())
       require("DIR", "the folder of a run, or --thesis in its place");

@@ -182,48 +182,46 @@ ExitCode migrate_all(const MigrateCommandOptions& options) {
 }  // namespace
 
 void add_new(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "new", "a commented file to begin with, valid as written",
+  CLI::App& sub = subcommand(app, "new", "Create a commented file to begin with, valid as written",
                              "sinew new robot my-arm --metric");
   NewCommandOptions& options = runs(sub, action, write);
   const std::vector<std::string> kinds(files::new_kinds().begin(), files::new_kinds().end());
-  sub.add_option("KIND", options.kind, "what it describes")->required()->check(one_of(kinds));
+  sub.add_option("KIND", options.kind, "kind of file")->required()->check(one_of(kinds));
   sub.add_option("NAME", options.name,
-                 "its name; a robot and a rig become a folder NAME, any other a file NAME.toml")
+                 "name; a robot and a rig become a folder NAME, any other a file NAME.toml")
       ->required();
-  sub.add_option("-o,--output", options.how.folder, "folder in which it is written; else this one");
-  sub.add_option(
-      "--of", options.how.of,
-      "experiment: the robot's file; plan and tuning: the experiment's; else one that comes with "
-      "Sinew");
+  sub.add_option("-o,--output", options.how.folder, "DIR: folder to write to; default: this one");
+  sub.add_option("--of", options.how.of,
+                 "FILE: robot of an experiment, experiment of a plan or tuning; default: Sinew's");
   sub.add_option("--actuator", options.how.actuator,
-                 "robot: the file of its muscles, as sinew identify static writes it");
-  sub.add_flag("--metric", options.how.metric, "mm, N and bar; else in, lbf and psi");
+                 "FILE: actuator file of a robot's muscles, as sinew identify static writes it");
+  sub.add_flag("--metric", options.how.metric, "write mm, N and bar; default: in, lbf and psi");
 }
 
 void add_list(CLI::App& app, Action& action) {
   CLI::App& sub =
-      subcommand(app, "list", "robots, experiments and more: with Sinew and in this folder",
+      subcommand(app, "list", "List robots, experiments and more, of Sinew and of this folder",
                  "sinew list experiments");
   ListOptions& options = runs(sub, action, list);
   const std::vector<std::string> kinds(files::listed_kinds().begin(), files::listed_kinds().end());
-  sub.add_option("KIND", options.kind, "one kind alone; else all")->check(one_of(kinds));
-  sub.add_flag("--json", options.json, "as JSON");
+  sub.add_option("KIND", options.kind, "kind to list; default: all of them")->check(one_of(kinds));
+  sub.add_flag("--json", options.json, "print the result as JSON");
 }
 
 void add_keys(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "keys", "every key of every file: unit, range, default, meaning",
+  CLI::App& sub = subcommand(app, "keys", "Search keys of all files: unit, range, default, meaning",
                              "sinew keys damping\n  sinew keys joint.hip.damping");
   KeysOptions& options = runs(sub, action, keys);
   sub.add_option("WORD", options.words,
-                 "a key, how it begins, or words of its description; without one, the tables");
-  CLI::Option* kind = sub.add_option("--kind", options.kind, "of one kind of file alone")
+                 "key, beginning of a key, or words of its description; default: an overview");
+  CLI::Option* kind = sub.add_option("--kind", options.kind, "search only this kind of file")
                           ->check(one_of(files::key_kinds()));
-  CLI::Option* json = sub.add_flag("--json", options.json, "as JSON");
+  CLI::Option* json = sub.add_flag("--json", options.json, "print the result as JSON");
   CLI::Option* schema = sub.add_option("--schema", options.schema,
-                                       "a JSON schema of that kind of file, for an editor")
+                                       "print a JSON schema of this kind of file, for an editor")
                             ->check(one_of(kinds_with_a_schema()));
-  CLI::Option* page =
-      sub.add_flag("--page", options.page, "all keys as Markdown, docs/reference/keys.md");
+  CLI::Option* page = sub.add_flag("--page", options.page,
+                                   "print all keys as Markdown, as in docs/reference/keys.md");
   CLI::Option* words = sub.get_option("WORD");
   for (CLI::Option* other : {kind, json, words}) {
     schema->excludes(other);
@@ -233,19 +231,19 @@ void add_keys(CLI::App& app, Action& action) {
 }
 
 void add_show(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "show", "values of a file, and where each one came from",
+  CLI::App& sub = subcommand(app, "show", "Show the values of a file and where each one comes from",
                              "sinew show robots/leg/robot.toml joint.knee muscle.hip");
   ShowOptions& options = runs(sub, action, show);
   sub.add_option("FILE", options.file, "experiment, rig, robot, actuator, valves or wiring file")
       ->required();
-  sub.add_option("KEY", options.keys, "keys, or how they begin");
+  sub.add_option("KEY", options.keys, "keys to show, or their beginnings; default: all");
   add_sets(sub, options.sets);
-  add_units(sub, options.units, "of the column of converted values, else SI");
-  sub.add_flag("--json", options.json, "as JSON");
+  add_units(sub, options.units, "the column of converted values (default: si)");
+  sub.add_flag("--json", options.json, "print the result as JSON");
 }
 
 void add_check(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "check", "all errors of files at once",
+  CLI::App& sub = subcommand(app, "check", "Report all errors of files at once",
                              "sinew check robots/leg/*.toml robots/leg/predict.dat");
   CheckOptions& options = runs(sub, action, check_all);
   sub.add_option(
@@ -253,21 +251,20 @@ void add_check(CLI::App& app, Action& action) {
          "experiment, rig, plan, tuning, robot, actuator, valves, wiring file, predict.dat, "
          "gain*.dat, or a run's folder or log")
       ->required();
-  sub.add_flag("--json", options.json, "as JSON");
+  sub.add_flag("--json", options.json, "print the result as JSON");
 }
 
 void add_migrate(CLI::App& app, Action& action) {
   auto options = std::make_shared<MigrateCommandOptions>();
-  CLI::App& sub = subcommand(app, "migrate", "files of older formats in today's, comments kept",
+  CLI::App& sub = subcommand(app, "migrate", "Convert files of older formats; comments are kept",
                              "sinew migrate my-leg/*.toml --dry-run");
   sub.add_option("FILE", options->files,
                  "experiment, rig, plan, tuning, robot, actuator, valves or wiring file")
       ->required();
   sub.add_option("-o,--output", options->how.folder,
-                 "folder of the new files; without it each takes the place of the old one, which "
-                 "is kept as FILE.bak");
-  sub.add_flag("--dry-run", options->dry_run, "prints what would be changed and writes nothing");
-  sub.add_flag("--json", options->json, "as JSON");
+                 "DIR: folder of the new files; default: in place of the old, kept as FILE.bak");
+  sub.add_flag("--dry-run", options->dry_run, "print what would be changed and write nothing");
+  sub.add_flag("--json", options->json, "print the result as JSON");
   sub.callback([=, &action] {
     options->how.write = !options->dry_run;
     action = [=] { return migrate_all(*options); };

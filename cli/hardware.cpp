@@ -227,57 +227,56 @@ ExitCode export_fmu(const FmuOptions& options) {
 }  // namespace
 
 void add_doctor(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "doctor", "is this computer ready to drive a machine?",
+  CLI::App& sub = subcommand(app, "doctor", "Check if this computer is ready to drive a machine",
                              "sinew doctor --for comedi");
   DoctorOptions& options = runs(sub, action, examine);
   sub.add_option("--for", options.place,
-                 "exit 1 where what such a place needs is missing: simulated, serial, emulated, "
-                 "comedi")
+                 "kind of place to drive; exits with 1 if something that it needs is missing")
       ->check(one_of({"simulated", "serial", "emulated", "comedi"}))
       ->capture_default_str();
   sub.add_flag("--json", options.json, "print the findings as JSON");
 }
 
 void add_bring_up(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "bring-up", "a machine's first day at the bench, step by step",
+  CLI::App& sub = subcommand(app, "bring-up", "Bring up a new machine at the bench, step by step",
                              "sinew bring-up robots/leg/robot.toml --port serial:/dev/ttyACM0");
   BringUpOptions& options = runs(sub, action, bring_up);
-  sub.add_option("ROBOT", options.robot, "file of the robot")->required();
+  sub.add_option("ROBOT", options.robot, "robot file")->required();
   sub.add_option("--port", options.place,
-                 "its board: serial:DEVICE[@RATE], lock-step:FILE or emulated:FILE")
+                 "PLACE: board of the robot: serial:DEVICE[@RATE], lock-step:FILE or emulated:FILE")
       ->required()
       ->transform(passes(problem_of_port));
-  sub.add_option("-o,--output", options.folder, "folder of the results; else bring-up/<robot>");
+  sub.add_option("-o,--output", options.folder, "DIR: results folder; default: bring-up/<robot>");
   add_sets(sub, options.sets);
   sub.add_flag("--clear-fault", options.clear_fault,
-               "the board's watchdog or memory fault has been looked into");
-  sub.add_flag("--yes", options.yes, "confirms every question: for a simulated bench");
+               "clear the board's watchdog or memory fault; find the cause first");
+  sub.add_flag("--yes", options.yes, "confirm every question, for a simulated bench");
 }
 
 void add_firmware(CLI::App& app, Action& action) {
   auto o = std::make_shared<FirmwareOptions>();
-  CLI::App& group = subcommand(app, "firmware", "the program of a robot's board",
+  CLI::App& group = subcommand(app, "firmware", "Build a board's program and draw its wiring",
                                "sinew firmware build robots/leg/robot.toml stm32f405 -o leg.elf");
   group.require_subcommand();
-  CLI::App& made = subcommand(group, "build", "does the robot fit on the board, and its program",
+  CLI::App& made = subcommand(group, "build", "Build a board's program if the robot fits on it",
                               "sinew firmware build robots/leg/robot.toml stm32f405 -o leg.elf");
   const auto add = [&](CLI::App& sub, const char* files) {
-    sub.add_option("ROBOT", o->robot, "file of the robot")->required();
+    sub.add_option("ROBOT", o->robot, "robot file")->required();
     sub.add_option("BOARD", o->board, names_of_boards())->required();
     sub.add_option("-o,--output", o->out, files)->required();
-    sub.add_flag("--force", o->force, "replace the file");
+    sub.add_flag("--force", o->force, "replace an existing file");
   };
-  add(made, "FILE.elf, FILE.hex or FILE.bin");
-  made.add_option("--sources", o->sources, "folder of Sinew's sources; else this one");
+  add(made, "FILE: .elf, .hex or .bin file to write");
+  made.add_option("--sources", o->sources, "DIR: folder of Sinew's sources; default: this one");
   made.callback([=, &action] { action = [=] { return build(*o); }; });
-  CLI::App& drawn = subcommand(group, "wiring", "which wire goes to which pin, as a picture",
+  CLI::App& drawn = subcommand(group, "wiring", "Draw which wire goes to which pin",
                                "sinew firmware wiring robots/leg/robot.toml teensy41 -o leg.svg");
-  add(drawn, "FILE.svg");
+  add(drawn, "FILE: .svg file to write");
   drawn.callback([=, &action] { action = [=] { return wiring(*o); }; });
-  CLI::App& flash = subcommand(group, "flash", "shows the command that brings a file onto a board",
+  CLI::App& flash = subcommand(group, "flash", "Print the command that brings a program to a board",
                                "sinew firmware flash stm32f405 leg.elf");
   flash.add_option("BOARD", o->board, names_of_boards())->required();
-  flash.add_option("FILE", o->out, "what was built")->required();
+  flash.add_option("FILE", o->out, "program that sinew firmware build has made")->required();
   flash.callback([=, &action] {
     action = [=] {
       const run::FirmwareBoard& board = run::firmware_board(o->board);
@@ -290,44 +289,40 @@ void add_firmware(CLI::App& app, Action& action) {
 }
 
 void add_fmu(CLI::App& app, Action& action) {
-  CLI::App& fmu = subcommand(app, "fmu", "FMUs for co-simulation in other programs",
+  CLI::App& fmu = subcommand(app, "fmu", "Export FMUs for co-simulation in other programs",
                              "sinew fmu export robots/leg/robot.toml --muscle hip_flexor");
   fmu.require_subcommand();
   CLI::App& sub =
       subcommand(fmu, "export",
-                 "an actuator, a muscle with valves, joints with muscles, or a machine with "
-                 "its controllers, as an FMU",
+                 "Export an actuator, a muscle with valves, joints with muscles, or a machine with "
+                 "its controllers as an FMU",
                  "sinew fmu export experiments/walk-test-1.toml --input control.stiffness.knee "
                  "--output /joint/knee/angle --output /trolley/position -o leg.fmu");
   FmuOptions& options = runs(sub, action, export_fmu);
   fmu::ExportRequest& request = options.request;
-  sub.add_option(
-         "FILE", request.file,
-         "actuator: a tube; rig: its muscle; robot: its joints; experiment: the machine with "
-         "its controllers")
+  sub.add_option("FILE", request.file,
+                 "file to export: actuator (a tube), rig (its muscle), robot (its joints) or "
+                 "experiment (the machine with its controllers)")
       ->required();
-  sub.add_option("-o,--out", options.out, "the FMU; NAME.fmu here");
-  sub.add_flag("--force", options.force, "replace a file that is there");
-  sub.add_option("--muscle", request.muscle, "this muscle alone, with its valves");
-  sub.add_flag("--without-valves", request.without_valves, "a muscle whose pressure is an input");
-  sub.add_option("--joint", request.joints, "this joint with its muscles; may be repeated")
+  sub.add_option("-o,--out", options.out, "FILE: FMU to write; default: NAME.fmu in this folder");
+  sub.add_flag("--force", options.force, "replace an existing file");
+  sub.add_option("--muscle", request.muscle, "NAME: export only this muscle, with its valves");
+  sub.add_flag("--without-valves", request.without_valves, "make the muscle's pressure an input");
+  sub.add_option("--joint", request.joints, "NAME: export this joint with its muscles")
       ->allow_extra_args(false);
-  sub.add_option("--actuator", request.actuator, "which actuator, where the file has several");
-  sub.add_option("--input", request.inputs,
-                 "a setting of the plan as an input: control.stiffness.JOINT …; may be repeated")
+  sub.add_option("--actuator", request.actuator, "NAME: actuator, where the file has several");
+  sub.add_option("--input", request.inputs, "KEY: setting as an input, control.stiffness.JOINT")
       ->allow_extra_args(false);
-  sub.add_option("--output", request.outputs,
-                 "a channel of the run; may be repeated; all, if none is named")
+  sub.add_option("--output", request.outputs, "CHANNEL: channel as an output; default: all")
       ->allow_extra_args(false);
-  sub.add_option("--parameter", request.parameters,
-                 "a value of the experiment that an importer may set; may be repeated")
+  sub.add_option("--parameter", request.parameters, "KEY: value that an importer may set")
       ->allow_extra_args(false);
-  sub.add_option("--fmi", request.version, "version of the interface")
+  sub.add_option("--fmi", request.version, "version of FMI")
       ->transform(between(2, 3))
       ->capture_default_str();
-  sub.add_option("--name", request.name, "of the model; from the file, the muscle or the joints");
+  sub.add_option("--name", request.name, "NAME: model name; default: by file, muscle or joints");
   add_sets(sub, request.sets);
-  sub.add_flag("--json", options.json, "what was written, as JSON");
+  sub.add_flag("--json", options.json, "print what was written as JSON");
 }
 
 }  // namespace sinew::cli

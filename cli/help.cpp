@@ -99,12 +99,21 @@ std::string choices_in_short(const CLI::Option& option) {
   return quoted || words.size() > longest ? "WORD" : words;
 }
 
+// Returns the value's name with which a description begins, "FILE" of "FILE: page to write", or "".
+std::string name_of_value(const std::string& description) {
+  const auto is_capital = [](char c) { return c >= 'A' && c <= 'Z'; };
+  const std::string word = description.substr(0, description.find(' '));
+  const bool is_name = word.ends_with(':') && std::ranges::any_of(word, is_capital);
+  return is_name ? word.substr(0, word.size() - 1) : "";
+}
+
 // Returns "VALUE", "FILE …", "sobol|morris|ends".
 std::string value_of(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
-  std::string out = option.get_positional()      ? option.get_name()
-                    : choices_of(option).empty() ? type.substr(0, type.find(':'))
-                                                 : choices_in_short(option);
+  const std::string type = option.get_type_name(), name = name_of_value(option.get_description());
+  std::string out = option.get_positional()       ? option.get_name()
+                    : !choices_of(option).empty() ? choices_in_short(option)
+                    : !name.empty()               ? name
+                                                  : type.substr(0, type.find(':'));
   return option.get_items_expected_max() > 1 && !is_repeated(option) ? out + " …" : out;
 }
 
@@ -117,14 +126,16 @@ std::string with_value(const CLI::Option& option, const std::string& names) {
 // may be given.
 std::string words_of(const CLI::Option& option) {
   std::string out = option.get_description();
-  const std::vector<std::string> choices = choices_of(option);
   const bool named = !option.get_positional();
-  if (!choices.empty() && !(named && choices_in_short(option) != "WORD"))
+  if (const std::size_t n = name_of_value(out).size(); n > 0) out.erase(0, n + 2);
+  const std::vector<std::string> choices = choices_of(option);
+  const auto is_in = [&](const std::string& word) { return out.find(word) != out.npos; };
+  if (!std::ranges::all_of(choices, is_in) && !(named && choices_in_short(option) != "WORD"))
     out += ": " + either_of(choices);
   if (takes_value(option) && !option.get_default_str().empty())
-    out += "; default " + option.get_default_str();
+    out += "; default: " + option.get_default_str();
   if (is_repeated(option) && out.find("repeated") == out.npos) out += "; may be repeated";
-  if (option.get_required() && named) out += "; always needed";
+  if (option.get_required() && named) out += "; required";
   return out;
 }
 
@@ -203,7 +214,7 @@ std::string all_commands(const CLI::App& app) {
 }
 
 std::string overview(const CLI::App& program) {
-  std::string out = program.get_description() + "\n\nUsage: sinew COMMAND …\n";
+  std::string out = wrapped(program.get_description(), 0) + "\nUsage: sinew COMMAND …\n";
   const auto add = [&](std::string_view title, const std::vector<HelpRow>& rows,
                        std::string_view example) {
     out += fmt::format("\n{}:\n{}    {}\n", title, table(rows, 13), example);
@@ -217,23 +228,23 @@ std::string overview(const CLI::App& program) {
     add(task.title, rows, task.example);
   }
   add("Find your way",
-      {{"help COMMAND", "what it takes, with an example"},
-       {"help TOPIC", "one of " + names_of_topics()},
-       {"completion", "what bash, zsh or fish needs to complete a line of sinew"},
-       {"--version", "which Sinew this is"}},
+      {{"help COMMAND", "Describe a command, with an example"},
+       {"help TOPIC", "Describe " + names_of_topics()},
+       {"completion", "Print the script with which a shell completes lines of sinew"},
+       {"--version", "Print the version of Sinew"}},
       "sinew help next");
   return out;
 }
 
 std::string help_of(const CLI::App& command) {
   if (!command.get_parent()) return overview(command);
-  std::string out = fmt::format("{}: {}\n\nUsage: {}\n", words_to(command),
-                                command.get_description(), usage_of(command));
+  std::string out = wrapped(words_to(command) + ": " + command.get_description(), 0);
+  out += "\nUsage: " + wrapped(usage_of(command), 7);
   std::vector<HelpRow> rows;
   for (const CLI::App* sub : commands_of(command))
     rows.push_back({sub->get_name(), sub->get_description()});
   if (!rows.empty()) out += "\nCommands:\n" + table(rows);
-  out += section(command, "Words:\n", false) + section(command, "Options:\n", true);
+  out += section(command, "Arguments:\n", false) + section(command, "Options:\n", true);
   return out + names_of_table_options(command) + "\nExample:\n  " + command.get_footer() + "\n";
 }
 
@@ -319,9 +330,9 @@ std::vector<std::string> with_help_first(std::vector<std::string> words, const C
 
 void add_help(CLI::App& app, Action& action) {
   auto words = std::make_shared<std::vector<std::string>>();
-  CLI::App& sub = subcommand(app, "help", "what a command takes, or what all of them share",
+  CLI::App& sub = subcommand(app, "help", "Describe a command, or what all commands share",
                              "sinew help identify static\n  sinew help units");
-  sub.add_option("WORD", *words, "a command, or a topic");
+  sub.add_option("WORD", *words, "command or topic");
   sub.callback([=, &app, &action] { action = [=, &app] { return help(*words, app); }; });
 }
 

@@ -72,7 +72,7 @@ struct Options {
 // Holds the parts of a method's help that are not its settings, and which outputs it has.
 struct MethodHelp {
   std::string_view method, example;
-  std::string_view out = "the parameter file to write";  // empty: it writes none
+  std::string_view out = "FILE: parameter file to write";  // empty: it writes none
   bool page = true, units = true;
 };
 constexpr MethodHelp methods[] = {
@@ -95,7 +95,7 @@ constexpr MethodHelp methods[] = {
      "--unit \"P_gauge_Pa=Pa gauge\" --unit L_m=m --rest-length \"250 mm\"",
      "", false, false},
     {"scale", "sinew identify scale my-actuator.toml --rest-length \"120 mm\" -o short.toml",
-     "the new actuator's file", false, false},
+     "FILE: actuator file to write", false, false},
     {"run",
      "sinew run experiments/one-joint.toml -o runs/bench\n  sinew identify run runs/bench --base "
      "robots/one-joint/robot.toml -o mine.toml\n  sinew identify run runs/bench --fit "
@@ -103,7 +103,7 @@ constexpr MethodHelp methods[] = {
     {"plan",
      "sinew identify plan --rest-length \"250 mm\" --diameter \"10 mm\" --pressure \"600 kPa "
      "gauge\" --error \"2 %\" -o plan.csv\n  sinew identify plan forces.csv --error \"1.5 %\"",
-     "FILE.csv: a row for each reading, to fill in", false},
+     "FILE: CSV file to write, with a row to fill in for each reading", false},
 };
 
 // --- the options of a line ---
@@ -122,39 +122,39 @@ struct NeedsOut : identify::RowVisitor<NeedsOut> {
 
 void add_data_options(CLI::App& sub, identify::Tables tables, DataOptions& options) {
   if (tables == identify::Tables::none) return;
-  sub.add_option("DATA", options.files, "measurements as CSV, or the folder of a run")
+  sub.add_option("DATA", options.files, "CSV files of measurements, or run folders")
       ->required(tables == identify::Tables::needed);
   add_table_options(sub, options.table, options.how);
-  sub.add_option("--atmosphere", options.atmosphere, "that gauges read against")
+  sub.add_option("--atmosphere", options.atmosphere, "QUANTITY: room pressure, the zero of gauges")
       ->capture_default_str();
 }
 
 void add_outputs(CLI::App& sub, const MethodHelp& help, ResultOptions& result) {
   if (!help.out.empty()) sub.add_option("-o,--out", result.out, std::string(help.out));
   add_flags(sub, result,
-            help.page          ? "replace the files"
+            help.page          ? "replace existing files"
             : help.out.empty() ? ""
-                               : "replace the file",
-            "print the result as JSON, in SI", "only the result and errors");
+                               : "replace an existing file",
+            "print the result as JSON, in SI", "print only the result and errors");
   result.no_report = !help.page;
   if (help.page) {
-    CLI::Option* page =
-        sub.add_option("--report", result.report,
-                       "FILE.html: a page with the data and the models; absent: next to --out");
-    sub.add_flag("--no-report", result.no_report, "no page")->excludes(page);
+    CLI::Option* page = sub.add_option(
+        "--report", result.report,
+        "FILE: page to write, with the data and the models; default: next to --out, as .html");
+    sub.add_flag("--no-report", result.no_report, "write no page")->excludes(page);
   }
   if (help.units)
-    add_units(sub, result.units, "of what is printed, else the method's own; files are in SI");
+    add_units(sub, result.units, "printed numbers (default: the method's own); files are in SI");
 }
 
 // Adds a second file that a method writes.
 template <class Settings>
 void add_beside(CLI::App& sub, const Settings&, std::string& file) {
   if constexpr (std::is_same_v<Settings, identify::JointSettings>)
-    sub.add_option("--actuator-out", file, "the actuator's file to write");
+    sub.add_option("--actuator-out", file, "FILE: actuator file to write");
   if constexpr (std::is_same_v<Settings, identify::ValveSettings>)
     sub.add_option("--predict-dat", file,
-                   "FILE for the duties' opening and closing ticks, compensated for the delays");
+                   "FILE: the duties' opening and closing ticks, compensated for the delays");
 }
 
 // Refuses options that do not go together, as wrong usage.
@@ -433,16 +433,16 @@ ExitCode run_columns(const ColumnsOptions& options) {
 }
 
 void add_columns(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "columns", "which columns a method reads, and a table to fill in",
+  CLI::App& sub = subcommand(app, "columns", "List the columns a method reads, or write a template",
                              "sinew identify columns static --template forces.csv");
   ColumnsOptions& options = runs(sub, action, run_columns);
   std::vector<std::string> names;
   for (const identify::MethodInputs& inputs : identify::method_inputs())
     names.emplace_back(inputs.method);
-  sub.add_option("METHOD", options.method, "of sinew identify")->required()->check(one_of(names));
-  sub.add_option("--kind", options.kind, "of table, where a method takes several: chart");
-  sub.add_option("--template", options.file, "FILE.csv: a table to fill in");
-  add_flags(sub, options, "replace the file", "print as JSON");
+  sub.add_option("METHOD", options.method, "method")->required()->check(one_of(names));
+  sub.add_option("--kind", options.kind, "KIND: kind of table, if a method has several: chart");
+  sub.add_option("--template", options.file, "FILE: CSV file to write, to fill in");
+  add_flags(sub, options, "replace an existing file", "print the result as JSON");
 }
 
 // --- force-beam ---
@@ -472,7 +472,7 @@ ExitCode run_force_beam(const ForceBeamOptions& options) {
 }  // namespace
 
 void add_identify(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "identify", "from measurements to parameter files",
+  CLI::App& sub = subcommand(app, "identify", "Turn measurements into parameter files",
                              "sinew identify geometry mesh.csv -o my-actuator.toml");
   sub.require_subcommand();
   identify::for_each_method(
@@ -489,8 +489,8 @@ void add_force_beam(CLI::App& app, Action& action) {
   ForceBeamOptions& options = runs(sub, action, run_force_beam);
   SettingOptions rows(sub);
   fields(rows, options.settings);
-  add_units(sub, options.units, "of what is printed, else SI and inches; --json is in SI");
-  add_flags(sub, options, "", "as JSON, SI");
+  add_units(sub, options.units, "printed numbers (default: SI and inches); --json is in SI");
+  add_flags(sub, options, "", "print the result as JSON, in SI");
 }
 
 }  // namespace sinew::cli

@@ -82,7 +82,7 @@ struct Program {
 
   explicit Program(std::string_view only = "") {
     app.set_version_flag("--version", std::string("sinew ") + SINEW_VERSION);
-    app.set_help_flag("-h,--help", "this text");
+    app.set_help_flag("-h,--help", "print this help");
     app.require_subcommand(1);
     app.formatter(std::make_shared<Help>());
     for (const Entry& entry : commands)

@@ -17,7 +17,8 @@ void add_units(CLI::App& sub, std::string& units, const std::string& of) {
                      : fmt::format("found {}; expected {}; try {}", read.found, read.expected,
                                    read.try_this);
   };
-  sub.add_option("--units", units, "si, thesis, metric, or with choices, metric,length=cm: " + of)
+  sub.add_option("--units", units,
+                 "UNITS: si, thesis, metric, or with changes (metric,length=cm): units of " + of)
       ->transform(passes(wrong));
 }
 
@@ -34,7 +35,7 @@ config::UnitsToShow chosen_units(const std::string& option, units::UnitSet other
 }
 
 void add_machine(CLI::App& sub, std::string& machine) {
-  sub.add_option("--machine", machine, "of one run: in place of the folder's resolved.toml");
+  sub.add_option("--machine", machine, "FILE: machine of a single run; default: its resolved.toml");
 }
 
 template <class Settings>
@@ -46,38 +47,35 @@ void add_table_options(CLI::App& sub, TableOptions& options, Settings& settings)
     add(name, values, text)->allow_extra_args(false);
   };
   add_each("--map", options.maps,
-           "NAME=COLUMN: the file's name for a column of the method, force=F_N, or for a channel, "
-           "/joint/elbow/angle=Winkel");
-  add_each("--unit", options.units, "COLUMN=UNIT: of its numbers, where its header has no unit");
+           "NAME=COLUMN: column of the file that is a column of the method, force=F_N, or a "
+           "channel, /joint/elbow/angle=Winkel");
+  add_each("--unit", options.units, "COLUMN=UNIT: unit of a column whose header has none");
   add_each("--where", options.where,
-           "COLUMN=VALUE,...: only rows whose column has one of these values");
+           "COLUMN=VALUE,...: read only rows whose column has one of these values");
   add_each("--value", options.values,
-           "[PART:]NAME=VALUE: of a column or channel that a file does not have, \"length=80 mm\"; "
-           "with PART only for files with PART in their name, \"p2:pressure=2 bar gauge\"");
+           "[PART:]NAME=VALUE: value of a column or channel that a file lacks, \"length=80 mm\"; "
+           "with PART, only for files with PART in their name, \"p2:pressure=2 bar gauge\"");
   add_each("--offset", options.offsets,
-           "NAME=VALUE: added to a column, \"length=200 mm\"; NAME is the method's, for import the "
-           "file's");
+           "NAME=VALUE: offset of the method's (import: the file's) column, \"length=200 mm\"");
   add("--columns", options.columns,
-      "\"force [N],time [s]\": the header of a file that has no header; `sinew identify columns` "
-      "has those that a method reads");
+      "HEADER: header of a file without one, \"force [N],time [s]\"; see `sinew identify columns`");
   add("--rate", options.rate,
-      "of the rows, \"100 Hz\" or \"10 ms\", in place of a column of times");
-  add("--part", settings.part,
-      "of several recordings in a file, one after the other, the first is 1")
+      "RATE: rate or interval of rows, \"100 Hz\" or \"10 ms\", in place of a column of times");
+  add("--part", settings.part, "number of one of several recordings in a file; the first is 1")
       ->transform(between(1, 1000000));
   sub.add_flag("--spread-times", settings.spread_times,
                "spread rows that share a time evenly up to the next time")
       ->group(table_heading);
   sub.add_flag("--drop-incomplete", settings.drop_incomplete,
-               "leave out rows with cells that are empty or not numbers, and count them")
+               "leave out rows with cells that are empty or no numbers, and report how many")
       ->group(table_heading);
-  add("--encoding", settings.encoding, "of a file whose letters do not show it")
+  add("--encoding", settings.encoding, "encoding of a file, where its letters do not show it")
       ->check(one_of({"utf-8", "utf-16le", "utf-16be", "latin1"}));
-  add("--decimal", settings.decimal, "the decimal mark, where the numbers do not show it")
+  add("--decimal", settings.decimal, "decimal mark, where the numbers do not show it")
       ->check(one_of({".", ","}));
-  add("--thousands", settings.thousands, "the mark between groups of three digits")
+  add("--thousands", settings.thousands, "mark between groups of three digits")
       ->check(one_of({".", ",", " ", "'"}));
-  add("--dates", settings.dates, "what comes first in 11/03/2026, or excel for days since 1900")
+  add("--dates", settings.dates, "order of dates such as 11/03/2026, or excel for days since 1900")
       ->check(one_of({"day first", "month first", "excel"}));
 }
 
@@ -124,6 +122,12 @@ std::string SettingOptions::names_of(const Row& row) {
     out += (out.empty() ? "--" : ",--") + name;
   std::ranges::replace(out, '_', '-');
   return out;
+}
+
+std::string SettingOptions::words_of(const Row& row) {
+  const bool file = row.kind == Row::Kind::file && row.option == row.name;  // no argument
+  const bool quantity = row.kind == Row::Kind::quantity || row.kind == Row::Kind::quantities;
+  return (file ? "FILE: " : quantity ? "QUANTITY: " : "") + std::string(row.doc);
 }
 
 }  // namespace sinew::cli

@@ -75,18 +75,16 @@ std::string Alignment::given() const {
 }
 
 void add_alignment(CLI::App& sub, Alignment& alignment) {
-  sub.add_option("--align", alignment.align,
-                 "how the times of runs are aligned with those of the first one: start, sequence, "
-                 "event, correlation")
+  sub.add_option("--align", alignment.align, "how to align others with the first (default: start)")
       ->check(one_of({"start", "sequence", "event", "correlation"}));
   sub.add_option("--event", alignment.event,
-                 "of --align event: '/joint/elbow/angle > 10 deg'; else the surest first motion");
-  sub.add_option("--align-by", alignment.align_by, "channels that are correlated; else chosen")
+                 "EVENT: for event: '/joint/elbow/angle > 10 deg'; default: clearest first motion");
+  sub.add_option("--align-by", alignment.align_by, "CHANNEL: correlated channels; default: chosen")
       ->expected(1, CLI::detail::expected_max_vector_size);
   sub.add_option("--clock", alignment.clock,
-                 "fit: the rate of a run's clock is found and taken out; none")
+                 "fit: correct clock rates of other runs; default: none")
       ->check(one_of({"none", "fit"}));
-  sub.add_option("--within", alignment.largest_shift, "largest shift that is looked for, in s");
+  sub.add_option("--within", alignment.largest_shift, "largest shift [s]; default: no limit");
 }
 
 // --- report ---
@@ -302,18 +300,17 @@ ExitCode make(const FilmOptions& options) {
 
 void add_report(CLI::App& app, Action& action) {
   auto options = std::make_shared<ReportOptions>();
-  CLI::App& sub =
-      subcommand(app, "report", "a run or a study as one page, which opens in any browser",
-                 "sinew report runs/walk-test-1/1 -o walk.html");
-  sub.add_option("DIR", options->runs, "a run's folder, a log file, or one or two studies' files")
+  CLI::App& sub = subcommand(app, "report", "Write a run or a study as one page for any browser",
+                             "sinew report runs/walk-test-1/1 -o walk.html");
+  sub.add_option("DIR", options->runs, "run folder, log file, or one or two study files")
       ->required()
       ->expected(1, 2);
   sub.add_option(
       "-o,--output", options->out,
-      "the file to write; else report.html in the log's folder, STUDY.html next to STUDY.db");
+      "FILE: page to write; default: report.html in the log's folder, STUDY.html next to STUDY.db");
   add_machine(sub, options->machine);
-  add_units(sub, options->units, "in which the page of a run begins, else as set");
-  add_flags(sub, *options, "replace the file", "");
+  add_units(sub, options->units, "a run's page when it opens (default: as in the settings)");
+  add_flags(sub, *options, "replace an existing file", "");
   sub.callback([=, &action] {
     const bool study = tune::is_study(options->runs.front());
     if (!study && options->runs.size() > 1)
@@ -325,66 +322,65 @@ void add_report(CLI::App& app, Action& action) {
 }
 
 void add_compare(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "compare", "several runs: numbers, parameters, channels",
+  CLI::App& sub = subcommand(app, "compare", "Compare several runs: numbers, parameters, channels",
                              "sinew compare runs/walk-test-1/1 runs/walk-test-2/1 -o compare.html");
   CompareOptions& options = runs(sub, action, compare_runs);
-  sub.add_option("RUN", options.runs, "folders of runs, or log files; the first is compared with")
+  sub.add_option("RUN", options.runs, "run folders or log files; the first is the reference")
       ->required()
       ->expected(2, most_runs);
-  sub.add_option("-o,--output", options.out, "also write a page with overlaid plots");
+  sub.add_option("-o,--output", options.out, "FILE: also write a page with overlaid plots");
   sub.add_option("--residuals", options.residuals,
-                 "also write what each run differs by, a column per channel, as CSV");
+                 "FILE: also write the differences of each run as CSV, a column per channel");
   add_alignment(sub, options.alignment);
-  sub.add_option("--channels", options.channels, "only these: '/joint/*/angle'")
+  sub.add_option("--channels", options.channels, "CHANNEL: only these, such as '/joint/*/angle'")
       ->expected(1, CLI::detail::expected_max_vector_size);
-  add_units(sub, options.units, "of the tables, else thesis, and of the page; --json is in SI");
-  sub.add_flag("--all", options.all, "every figure and channel, equal ones too");
-  sub.add_flag("--json", options.json, "everything as JSON");
-  add_flags(sub, options, "replace the page", "");
+  add_units(sub, options.units, "the tables (default: thesis) and of the page; --json is in SI");
+  sub.add_flag("--all", options.all, "print every figure and channel, equal ones too");
+  add_flags(sub, options, "replace existing files", "print everything as JSON");
 }
 
 void add_export(CLI::App& app, Action& action) {
   CLI::App& sub = subcommand(
-      app, "export", "a run's log as CSV, as the thesis's out.dat, or as bytes of its ports",
+      app, "export", "Export a run's log as CSV, as the thesis's out.dat, or as bytes of its ports",
       "sinew export runs/walk-test-1/1 --csv -o walk.csv");
   ExportOptions& options = runs(sub, action, export_run);
-  sub.add_option("DIR", options.run, "a run's folder, or a log file")->required();
+  sub.add_option("DIR", options.run, "run folder or log file")->required();
   CLI::App& how = alternatives(sub, "format");
   how.add_option("--format", options.format,
-                 "csv: time [s], then a column per channel; out.dat: the log of B.1; ports: bytes "
-                 "of the valves' ports")
+                 "csv: time [s], then a column per channel; out.dat: the log of the thesis, B.1; "
+                 "ports: bytes of the valves' ports")
       ->check(one_of({"csv", "out.dat", "ports"}));
-  how.add_flag("--csv", options.csv, "the same as --format csv");
-  sub.add_option("-o,--output", options.out, "the file to write; else stdout");
-  sub.add_option("--channels", options.channels, "csv: topics only; * matches anything");
-  sub.add_flag("--derived", options.derived, "csv: also what the analysis derives");
+  how.add_flag("--csv", options.csv, "same as --format csv");
+  sub.add_option("-o,--output", options.out, "FILE: file to write; default: stdout");
+  sub.add_option("--channels", options.channels, "CHANNEL: csv: only these; * matches anything");
+  sub.add_flag("--derived", options.derived, "csv: also write what the analysis derives");
   add_machine(sub, options.machine);
-  add_flags(sub, options, "replace the file", "");
+  add_flags(sub, options, "replace an existing file", "");
 }
 
 void add_film(CLI::App& app, Action& action) {
   CLI::App& sub =
-      subcommand(app, "film", "the replay of a run, or of several, as a GIF, an MP4 or a WebM",
+      subcommand(app, "film", "Film the replay of one run or several as GIF, MP4 or WebM",
                  "sinew film runs/walk-test-1/1 -o walk.gif --from \"2 s\" --to "
                  "\"5 s\"\n  sinew film runs/walk-test-1/1 -o walk.mp4 --speed 0.25\n  sinew film "
                  "runs/elbow/1 measured -o both.mp4 --align correlation --clock fit");
   FilmOptions& options = runs(sub, action, make);
   sub.add_option("RUN", options.runs,
-                 "folders of runs, or log files; the others are ghosts over the first")
+                 "run folders or log files; all but the first as ghosts")
       ->required()
       ->expected(1, most_runs);
-  sub.add_option("-o,--output", options.out, "the file to write: .gif, .mp4 or .webm")->required();
-  sub.add_option("--from", options.from, "\"2 s\" of the run; else its begin");
-  sub.add_option("--to", options.to, "else the run's end");
-  sub.add_option("--speed", options.speed, "seconds of the run per second")->capture_default_str();
-  sub.add_option("--width", options.width, "pixels")->capture_default_str();
-  sub.add_option("--height", options.height, "pixels")->capture_default_str();
+  sub.add_option("-o,--output", options.out, "FILE: .gif, .mp4 or .webm file to write")->required();
+  sub.add_option("--from", options.from, "TIME: begin in the run, \"2 s\"; default: its start");
+  sub.add_option("--to", options.to, "TIME: end in the run, \"5 s\"; default: its end");
+  sub.add_option("--speed", options.speed, "run seconds per film second")->capture_default_str();
+  sub.add_option("--width", options.width, "width of the picture [pixels]")->capture_default_str();
+  sub.add_option("--height", options.height, "height of the picture [pixels]")->capture_default_str();
   sub.add_option("--fps", options.fps, "frames per second")->capture_default_str();
-  sub.add_flag("--dark", options.dark, "light on dark");
-  sub.add_flag("--still", options.still, "the camera stands and shows the whole way");
+  sub.add_flag("--dark", options.dark, "draw light on dark");
+  sub.add_flag("--still", options.still, "keep the camera still and show the whole way");
   add_alignment(sub, options.alignment);
   add_machine(sub, options.machine);
-  add_flags(sub, options, "replace the file", "");
+  add_flags(sub, options, "replace an existing file", "");
 }
 
 }  // namespace sinew::cli

@@ -128,18 +128,18 @@ void add_folder(CLI::App& sub, Request& request) {
 void add_run_options(CLI::App& sub, const std::string& port, RunOptions& options) {
   run::RunRequest& request = options.run;
   sub.add_option(port, request.port,
-                 "where it runs: simulated, serial:DEVICE[@RATE], emulated:FILE, lock-step:FILE or "
-                 "comedi:DEVICE")
+                 "PLACE: what to run on: simulated, serial:DEVICE[@RATE], emulated:FILE, "
+                 "lock-step:FILE or comedi:DEVICE; default: simulated")
       ->transform(passes(run::problem_of_place));
   sub.add_flag("--clear-fault", request.clear_fault,
-               "a board that dumped by itself, or whose watchdog has bitten, was looked into");
+               "clear the board's watchdog or memory fault; find the cause first");
   add_folder(sub, request);
   sub.add_flag("--allow-unreachable", request.allow_unreachable,
-               "aim at the nearest point where the foot path is out of reach");
-  sub.add_flag("!--no-report", request.report, "leave report.html out");
-  add_units(sub, request.units, "of what is printed and of the page; --json is in SI");
-  sub.add_flag("--json", options.json, "print summary.json");
-  sub.add_flag("--quiet", options.quiet, "only errors on stderr");
+               "aim at the nearest reachable point where the foot path is out of reach");
+  sub.add_flag("!--no-report", request.report, "write no report.html");
+  add_units(sub, request.units, "printed numbers and of the page; --json is in SI");
+  sub.add_flag("--json", options.json, "print summary.json in place of the results");
+  sub.add_flag("--quiet", options.quiet, "print only errors to stderr");
 }
 
 // --- view ---
@@ -322,27 +322,26 @@ ExitCode import_recording(const ImportOptions& given) {
 void add_mapping_options(CLI::App& sub, ImportOptions& options) {
   run::ImportRequest& request = options.request;
   add_table_options(sub, options.table, request.mapping.table);
-  sub.add_option(
-         "--scale", options.scales,
-         "COLUMN=NUMBER: by which its numbers are multiplied, before --offset; -1 turns the "
-         "sign; may be repeated")
+  sub.add_option("--scale", options.scales,
+                 "COLUMN=NUMBER: factor of a column, applied before --offset; -1 turns the sign")
       ->allow_extra_args(false);
   sub.add_option("--mapping", request.mapping_file,
-                 "a file with these and the options of how a table is read, sinew.mapping/1");
-  sub.add_option("--save-mapping", request.save_mapping, "write such a file, for the next time");
-  sub.add_flag("--all", request.mapping.keep_others, "keep other columns, as /recorded/NAME");
+                 "FILE: file with options for columns, clock and tables, sinew.mapping/1");
+  sub.add_option("--save-mapping", request.save_mapping, "FILE: write the options to such a file");
+  sub.add_flag("--all", request.mapping.keep_others, "keep other columns, too, as /recorded/NAME");
 }
 
 void add_clock_options(CLI::App& sub, ImportOptions& options) {
   recording::ClockMapping& clock = options.request.mapping.clock;
-  sub.add_option("--time", clock.column, "the column with the times; else time, t or such");
-  sub.add_option("--time-unit", clock.unit, "of its numbers: ms");
-  sub.add_option("--clock-scale", clock.scale, "true seconds per second of its clock: 0.997");
+  sub.add_option("--time", clock.column, "COLUMN: column of the times; default: time, t or such");
+  sub.add_option("--time-unit", clock.unit, "UNIT: unit of the times, such as ms");
+  sub.add_option("--clock-scale", clock.scale, "true seconds per recorded second; default: 1");
   sub.add_option("--start", clock.start,
-                 "the recording's time that becomes 0, \"12.5 s\"; else its first sample");
-  sub.add_option("--join", options.join, "several files: side by side in time, or end to end")
+                 "TIME: recorded time that becomes 0, \"12.5 s\"; default: the first sample");
+  sub.add_option("--join", options.join,
+                 "how several files are joined, side by side in time or end to end; default: side")
       ->check(one_of({"side", "end"}));
-  sub.add_option("--shift", options.shifts, "FILE=TIME: added to the times of a file")
+  sub.add_option("--shift", options.shifts, "FILE=TIME: time to add to the times of a file")
       ->allow_extra_args(false);
 }
 
@@ -395,39 +394,39 @@ ExitCode analyze_run(const AnalyzeOptions& options) {
 }  // namespace
 
 void add_run(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "run", "an experiment; its log and numbers go into a new folder",
-                             "sinew run experiments/walk-test-1.toml --set \"trolley.drag=0 lbf\"");
+  CLI::App& sub =
+      subcommand(app, "run", "Run an experiment and keep its log and numbers in a new folder",
+                 "sinew run experiments/walk-test-1.toml --set \"trolley.drag=0 lbf\"");
   RunOptions& options = runs(sub, action, run_experiment);
-  sub.add_option("EXPERIMENT", options.run.experiment, "file of the experiment")->required();
+  sub.add_option("EXPERIMENT", options.run.experiment, "experiment file")->required();
   add_run_options(sub, "--port", options);
-  sub.add_option("--pace", options.pace, "simulated seconds per second of wall time; 0: no limit")
+  sub.add_option("--pace", options.pace, "simulated seconds per real second; default: 0, no limit")
       ->transform(passes(a_pace));
 }
 
 void add_view(CLI::App& app, Action& action) {
   auto options = std::make_shared<ViewOptions>();
   CLI::App& sub =
-      subcommand(app, "view", "a run or a study in the browser, recorded or while it goes",
+      subcommand(app, "view", "Show a run or a study in the browser, recorded or while it runs",
                  "sinew view --live experiments/tune-in-air.toml");
-  CLI::Option* dir =
-      sub.add_option("DIR", options->what,
-                     "a run's folder, a folder of runs, a log file, one or two studies; else "
-                     "the newest of runs/");
+  CLI::Option* dir = sub.add_option("DIR", options->what,
+                                    "run folder, folder of runs, log file, or one or two study "
+                                    "files; default: the newest run in runs/");
   add_machine(sub, options->machine);
   CLI::Option* live =
-      sub.add_option("--live", options->live.run.experiment, "run this experiment and watch it");
+      sub.add_option("--live", options->live.run.experiment, "FILE: experiment to run and show");
   live->excludes(dir);
   sub.add_option("--port", options->port,
-                 "on 127.0.0.1; 0: a free one; else the one that this folder has each time")
+                 "port on 127.0.0.1, 0 for a free one; default: the same one for this folder")
       ->transform(between(0, 65535));
-  sub.add_flag("!--no-open", options->open, "only print where it is");
+  sub.add_flag("!--no-open", options->open, "print the address and open no browser");
   options->live.pace = 1;
   sub.add_option("--pace", options->live.pace,
-                 "simulated seconds per second of wall time; 0: no limit")
+                 "simulated seconds per real second, 0 for no limit; default: 1")
       ->transform(passes(a_pace))
       ->needs(live);
-  sub.add_flag("--paused", options->paused, "the run waits for the page's button")->needs(live);
-  sub.add_flag("--once", options->once, "end with the run")->needs(live);
+  sub.add_flag("--paused", options->paused, "begin when the page's button is pressed")->needs(live);
+  sub.add_flag("--once", options->once, "exit when the run ends")->needs(live);
   add_run_options(sub, "--place", options->live);
   for (const char* of_a_run : {"--place", "--clear-fault", "--output", "--force", "--set",
                                "--allow-unreachable", "--no-report", "--units", "--json"})
@@ -440,32 +439,33 @@ void add_view(CLI::App& app, Action& action) {
 }
 
 void add_replay(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "replay", "a recording through today's controller, or plant",
+  CLI::App& sub = subcommand(app, "replay", "Replay a recording with today's controller or plant",
                              "sinew replay runs/walk-test-1/1 --of plant -o runs/replayed");
   ReplayOptions& options = runs(sub, action, replay_run);
-  sub.add_option("DIR", options.request.run, "a run's folder, or a log file")->required();
-  sub.add_option("--of", options.of,
-                 "controller: it is fed the readings; plant: it is fed the valves' commands")
+  sub.add_option("DIR", options.request.run, "run folder or log file")->required();
+  sub.add_option(
+         "--of", options.of,
+         "controller: fed with readings; plant: fed with valve commands; default: controller")
       ->check(one_of({"controller", "plant"}));
   add_machine(sub, options.request.machine);
   add_sets(sub, options.request.sets);
-  sub.add_option("--band", options.band, "of a plant: tolerance in % of a channel's range");
-  sub.add_option("-o,--output", options.folder, "keep the replay in this folder, as a run");
-  sub.add_flag("--force", options.request.force, "replace the run that is in the folder");
-  add_units(sub, options.units, "of the table; --json is in SI");
-  add_flags(sub, options, "", "as JSON");
+  sub.add_option("--band", options.band, "for plant: tolerance [% of channel range]; default: 5");
+  sub.add_option("-o,--output", options.folder, "DIR: keep the replay in this folder, as a run");
+  sub.add_flag("--force", options.request.force, "replace an existing run");
+  add_units(sub, options.units, "the table; --json is in SI");
+  add_flags(sub, options, "", "print the result as JSON");
 }
 
 void add_import(CLI::App& app, Action& action) {
   CLI::App& sub = subcommand(
-      app, "import", "a recording of a laboratory as the folder of a run",
+      app, "import", "Import a recording of a laboratory as a run folder",
       "sinew import rig.csv --experiment one-joint.toml --map /joint/elbow/angle=Winkel");
   ImportOptions& options = runs(sub, action, import_recording);
   run::ImportRequest& request = options.request;
   sub.add_option("FILE", request.files,
-                 "a table as CSV, a log as MCAP, a .mat of MATLAB, or the thesis's out.dat")
+                 "table as CSV, log as MCAP, .mat of MATLAB, or the thesis's out.dat")
       ->required();
-  sub.add_option("--experiment", request.experiment, "what was run: its robot or stand, its phases")
+  sub.add_option("--experiment", request.experiment, "FILE: experiment with machine and phases")
       ->required();
   add_mapping_options(sub, options);
   add_clock_options(sub, options);
@@ -474,16 +474,16 @@ void add_import(CLI::App& app, Action& action) {
 }
 
 void add_analyze(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "analyze", "a run's numbers from its log, with the reported ones",
+  CLI::App& sub = subcommand(app, "analyze", "Compute a run's numbers and check the reported ones",
                              "sinew analyze runs/walk-test-1/1 --json");
   AnalyzeOptions& options = runs(sub, action, analyze_run);
-  sub.add_option("DIR", options.run, "a run's folder, or a log file")->required();
+  sub.add_option("DIR", options.run, "run folder or log file")->required();
   add_machine(sub, options.machine);
-  sub.add_option("-o,--output", options.out, "also write the summary to this file");
-  add_flags(sub, options, "replace that file", "print the summary as JSON");
-  sub.add_flag("--verdicts", options.verdicts, "print what is reported, with verdicts, as JSON")
+  sub.add_option("-o,--output", options.out, "FILE: also write the summary to this file");
+  add_flags(sub, options, "replace an existing file", "print the summary as JSON");
+  sub.add_flag("--verdicts", options.verdicts, "print reported values with verdicts, as JSON")
       ->excludes(sub.get_option("--json"));
-  add_units(sub, options.units, "of what is printed, else the source's own; --json is in SI");
+  add_units(sub, options.units, "printed numbers (default: the source's own); --json is in SI");
 }
 
 }  // namespace sinew::cli

@@ -106,22 +106,21 @@ void add_words(CLI::App& sub, const char* name, std::vector<std::string>& words,
 
 // --threads and --results.
 void add_keeping(CLI::App& sub, RunsOptions& options) {
-  sub.add_option("--threads", options.threads, "at a time; as many as the machine has")
+  sub.add_option("--threads", options.threads, "runs at a time; default: one per processor")
       ->transform(between(1, 1024));
   sub.add_option("--results", options.results,
-                 "a study's file: each row as soon as its run is done; its rows are not run "
-                 "again");
+                 "FILE: study file with each row once its run is done; these are not run again");
 }
 
 // --range, --set, --report, --units, --allow-unreachable, --threads and --results.
 void add_runs(CLI::App& sub, tune::Study& study, RunsOptions& options) {
   add_words(sub, "--range", study.range,
-            "KEY=from:to unit, sampled; with \"log\" or \"whole\" behind it; repeated");
+            "KEY=RANGE: range to sample, from:to unit; \"log\" or \"whole\" may follow the unit");
   add_words(sub, "--report", study.report,
-            "keys of summary.json, with commas: key, or key [unit]; else the reported ones");
-  add_units(sub, study.units, "of figures that name none, else SI; --json is in SI");
+            "KEYS: keys of summary.json with commas, key or key [unit]; default: reported ones");
+  add_units(sub, study.units, "figures that name none (default: si); --json is in SI");
   add_sets(sub, study.set);
-  sub.add_flag("--allow-unreachable", study.allow_unreachable, "as in sinew run");
+  sub.add_flag("--allow-unreachable", study.allow_unreachable, "accept unreachable foot paths");
   add_keeping(sub, options);
 }
 
@@ -175,13 +174,13 @@ ExitCode sweep_all(const SweepOptions& options) {
 
 void add_sample(CLI::App& sub, SweepOptions& options) {
   sub.add_option("--points", options.study_options.study.points,
-                 "of the sample, each a row or more")
+                 "number of points of the sample, each of which is a row or more")
       ->transform(between(1, 1000000));
   sub.add_option("--sample", options.study_options.sample,
-                 "how the points lie: sobol, latin, random; sobol")
+                 "how the points of the sample are spread; default: sobol")
       ->check(one_of({"sobol", "latin", "random"}));
   sub.add_option("--sample-seed", options.study_options.sample_seed,
-                 "other points of the same kind; 1")
+                 "seed of the sample; default: 1")
       ->transform(between(0, 2147483647));
 }
 
@@ -368,29 +367,30 @@ ExitCode merge_all(const MergeOptions& options) {
 void add_sweep(CLI::App& app, Action& action) {
   auto options = std::make_shared<SweepOptions>();
   CLI::App& sub = subcommand(
-      app, "sweep", "many runs of one experiment as one table",
+      app, "sweep", "Run an experiment with many values and collect one table",
       "sinew sweep experiments/leg-in-air.toml --vary \"joint.hip.angle_gain=0.02:0.1:5 %/count\" "
       "--report \"joints.hip.tracking_rms_rad [deg]\" -o gain.csv");
-  sub.add_option("FILE", options->file, "the experiment, or a plan of sweeps")->required();
+  sub.add_option("FILE", options->file, "experiment file, or plan of a sweep")->required();
   add_words(sub, "--vary", options->study_options.study.vary,
-            "KEY=a,b,c unit or KEY=from:to:how many unit; repeated: all combinations");
+            "KEY=VALUES: values, a,b,c unit or from:to:count unit; repeated: all combinations");
   add_runs(sub, options->study_options.study, options->runs);
   sub.add_option("--shard", options->runs.shard,
-                 "i/n: of all points every n-th from the i-th on; sinew merge joins the files")
+                 "I/N: run only every N-th point, from the I-th on; sinew merge joins the files")
       ->needs(sub.get_option("--results"));
   add_sample(sub, *options);
   sub.add_option("--seeds", options->study_options.study.seeds,
-                 "each point with the noise of seeds 1 … N")
+                 "number of runs per point, with the noise of seeds 1 to N")
       ->transform(between(1, 10000));
   sub.add_option("--largest", options->study_options.study.largest,
-                 "the largest value of one more key for which --where holds; written like --vary");
-  add_words(sub, "--where", options->study_options.study.where,
-            "\"key < value\" of summary.json, also <=, >, >=; repeated: all must hold");
+                 "KEY=VALUES: find the largest value of one more key, for which --where holds");
+  add_words(
+      sub, "--where", options->study_options.study.where,
+      "CONDITION: \"key < value\" of summary.json, also <=, >, >=; if repeated, all must hold");
   sub.add_option("--halvings", options->study_options.halvings,
-                 "of the interval that --largest finds; 6")
+                 "number of times that --largest halves its interval; default: 6")
       ->transform(between(0, 50));
-  sub.add_option("-o,--output", options->out, "the CSV file to write; else stdout");
-  add_flags(sub, *options, "replace that file", "print the table as JSON");
+  sub.add_option("-o,--output", options->out, "FILE: CSV file to write; default: stdout");
+  add_flags(sub, *options, "replace an existing file", "print the table as JSON");
   sub.callback([=, &action] {
     if (options->json) options->study_options.study.units.clear();
     action = [=] { return sweep_all(*options); };
@@ -398,46 +398,45 @@ void add_sweep(CLI::App& app, Action& action) {
 }
 
 void add_tune(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "tune", "the best values of an experiment's keys",
+  CLI::App& sub = subcommand(app, "tune", "Search for the best values of an experiment's keys",
                              "sinew tune studies/faster-walk.toml --best faster-walk.toml");
   TuneOptions& options = runs(sub, action, tune_all);
-  sub.add_option("FILE", options.file, "the tuning: docs/how-to/studies.md")->required();
+  sub.add_option("FILE", options.file, "tuning file; see docs/how-to/studies.md")->required();
   add_sets(sub, options.sets);
   add_keeping(sub, options.runs);
-  sub.add_option("--generations", options.generations, "in place of the file's number")
+  sub.add_option("--generations", options.generations, "generations, in place of the file's")
       ->transform(between(1, 100000));
-  sub.add_option("--best", options.best, "also write the best candidate as this experiment");
-  sub.add_option("--candidate", options.candidate, "write this one in its place")
+  sub.add_option("--best", options.best, "FILE: also write the best candidate as this experiment");
+  sub.add_option("--candidate", options.candidate, "candidate for --best; default: the best one")
       ->transform(between(0, 1000000))
       ->needs(sub.get_option("--best"));
-  sub.add_option("-o,--output", options.out, "also write all candidates to this CSV file");
-  add_units(sub, options.units, "of the table, else the file's; what is written keeps the file's");
-  add_flags(sub, options, "replace those files", "print the result as JSON");
+  sub.add_option("-o,--output", options.out, "FILE: also write all candidates to this CSV file");
+  add_units(sub, options.units, "the table (default: the file's); written files keep the file's");
+  add_flags(sub, options, "replace existing files", "print the result as JSON");
 }
 
 void add_sensitivity(CLI::App& app, Action& action) {
   auto options = std::make_shared<SensitivityOptions>();
   CLI::App& sub = subcommand(
-      app, "sensitivity", "which ranges a figure follows, and how strongly",
+      app, "sensitivity", "Rank ranges of values by how strongly each figure depends on them",
       "sinew sensitivity experiments/walk-test-1.toml --range \"joint.hip.angle_gain=0.02:0.08 "
       "%/count\" --range \"air.supply.pressure=70:90 psi gauge\" --report \"trolley.distance_m "
       "[in]\"");
-  sub.add_option("FILE", options->study.experiment, "the experiment")->required();
+  sub.add_option("FILE", options->study.experiment, "experiment file")->required();
   add_runs(sub, options->study, options->run);
-  sub.add_option(
-         "--method", options->method,
-         "sobol: shares of the variance; morris: effects along paths; ends: to both ends of "
-         "one range at a time")
+  sub.add_option("--method", options->method,
+                 "sobol: shares of the variance; morris: effects along paths; ends: effects of "
+                 "both ends of one range at a time; default: sobol")
       ->check(one_of({"sobol", "morris", "ends"}));
   sub.add_option("--points", options->points,
-                 "sobol: rows, each as many runs as ranges and 2, a power of two; 256. morris: "
-                 "paths, each as many runs as ranges and 1; 20")
+                 "for sobol: number of rows of ranges + 2 runs, a power of two (default: 256); for "
+                 "morris: number of paths of ranges + 1 runs (default: 20)")
       ->transform(between(2, 1000000));
-  sub.add_option("--sample-seed", options->seed, "other points of the same kind; 1")
+  sub.add_option("--sample-seed", options->seed, "seed of the sample; default: 1")
       ->transform(between(0, 2147483647));
-  sub.add_option("-o,--output", options->out, "also write the table to this CSV file");
-  sub.add_option("--runs", options->runs, "also write every run to this CSV file");
-  add_flags(sub, *options, "replace those files", "print it as JSON");
+  sub.add_option("-o,--output", options->out, "FILE: also write the table to this CSV file");
+  sub.add_option("--runs", options->runs, "FILE: also write every run to this CSV file");
+  add_flags(sub, *options, "replace existing files", "print the result as JSON");
   sub.callback([=, &action] {
     if (options->json) options->study.units.clear();
     action = [=] { return print_sensitivity(*options); };
@@ -445,12 +444,12 @@ void add_sensitivity(CLI::App& app, Action& action) {
 }
 
 void add_merge(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "merge", "files of one study as one file",
+  CLI::App& sub = subcommand(app, "merge", "Merge the files of one study into one file",
                              "sinew merge a.db b.db c.db -o all.db");
   MergeOptions& options = runs(sub, action, merge_all);
-  sub.add_option("FILE", options.files, "of sinew sweep --results, each another --shard")
+  sub.add_option("FILE", options.files, "files of sinew sweep --results, each of another --shard")
       ->required();
-  sub.add_option("-o,--output", options.out, "the file for all rows, new or grown")->required();
+  sub.add_option("-o,--output", options.out, "FILE: all rows; created or extended")->required();
 }
 
 }  // namespace sinew::cli

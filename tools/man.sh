@@ -12,9 +12,9 @@ section() {  # section WORDS...: prints the section of a command
   local help
   help=$(help_of "$@")
   printf '.SS "sinew %s"\n' "$*"
-  head -n 1 <<<"$help" | as_text
+  sed '/^$/,$d' <<<"$help" | as_text
   printf '.PP\n.nf\n'
-  tail -n +2 <<<"$help" | grep -v '^  -h, --help' | as_text
+  sed '1,/^$/d' <<<"$help" | grep -v '^  -h, --help' | as_text
   printf '.fi\n'
 }
 

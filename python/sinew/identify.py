@@ -80,8 +80,9 @@ def _of(method: str) -> Callable[[Function], Function]:
         lines = [inspect.cleandoc(function.__doc__ or ""), ""]
         for row in _sinew.identify_settings(method):
             unit = f" [{row['unit']}]" if "unit" in row else ""
-            words = f": {', '.join(row['words'])}" if "words" in row else ""
-            usual = f"; default {row['default']}" if "default" in row else ""
+            words = row.get("words", ())
+            words = f": {', '.join(words)}" if any(word not in row["doc"] for word in words) else ""
+            usual = f"; default: {row['default']}" if "default" in row else ""
             lines.append(f"{row['keyword']}{unit}: {row['doc']}{words}{usual}.")
         function.__doc__ = "\n".join(lines)
         return function

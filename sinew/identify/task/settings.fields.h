@@ -27,17 +27,19 @@ struct GeometrySettings {
 template <class Visitor>
 void fields(Visitor& v, GeometrySettings& s) {
   v.method({"geometry",
-            "thread length and turns, from counted trapezoids or from lengths and diameters",
+            "Find thread length and turns, from counted trapezoids or lengths and diameters",
             Tables::optional});
-  v.text({"trapezoids", "LENGTHWISE,AROUND counted on the opened mesh, instead of data"},
-         s.trapezoids);
-  v.quantity({"side", "of one trapezoid", "m",
+  v.text(
+      {"trapezoids", "LENGTHWISE,AROUND: trapezoids counted on the opened mesh, in place of data"},
+      s.trapezoids);
+  v.quantity({"side", "side of one trapezoid", "m",
               config::above_zero(1, "of one trapezoid between two threads")},
              s.side);
-  v.quantity({"thread_thickness", "taken off diameters that were measured outside the threads", "m",
+  v.quantity({"thread_thickness",
+              "thread thickness, subtracted from diameters measured outside the threads", "m",
               config::from_zero(0.1, "of one thread")},
              s.thread_thickness);
-  v.text({"name", "of the actuator"}, s.name);
+  v.text({"name", "name of the actuator"}, s.name);
 }
 
 // --- sensor ---
@@ -56,24 +58,25 @@ struct SensorSettings {
 
 template <class Visitor>
 void fields(Visitor& v, SensorSettings& s) {
-  v.method({"sensor", "scale, offset, linearity, hysteresis and noise of calibrated sensors"});
+  v.method({"sensor", "Calibrate sensors: scale, offset, linearity, hysteresis and noise"});
   v.text({"known",
-          "load, force, tension, angle, length, position, pressure or velocity: what was set, "
-          "where the file has several"},
+          "quantity that was set, where the file has several: load, force, tension, angle, length, "
+          "position, pressure or velocity"},
          s.known);
-  v.texts(Setting{"sensors", "columns to calibrate; absent: all in volts or counts"}.at_commas(),
+  v.texts(Setting{"sensors", "columns to calibrate; default: all in volts or counts"}.at_commas(),
           s.sensors);
-  v.quantity({"rest", "the known value at the joint's rest angle; absent: 0"}, s.rest);
-  v.integer({"bits", "of the converter", "", {1, 16, "of a converter"}}, s.bits);
-  v.quantity({"full_scale", "of the converter", "V", config::above_zero(1000, "of a converter")},
+  v.quantity({"rest", "known value at the joint's rest angle; default: 0"}, s.rest);
+  v.integer({"bits", "bits of the converter", "", {1, 16, "of a converter"}}, s.bits);
+  v.quantity({"full_scale", "voltage of the largest count", "V",
+              config::above_zero(1000, "of a converter")},
              s.full_scale);
   v.hold_out({"hold_out",
-              "level: every known value is predicted from the others; or another calibration; "
-              "absent: level"},
+              "data that score: level (each known value, predicted from the others) or a file of "
+              "another calibration; default: level"},
              s.hold_out);
-  v.flag({"average", "the controller assumes one scale for all of them, as the thesis's did"},
+  v.flag({"average", "write one scale for all sensors, as the thesis's controller assumes"},
          s.average);
-  v.file(Setting{"base", "the robot whose sensors these are: the parameter file is then a robot"}
+  v.file(Setting{"base", "robot file with these sensors; the parameter file is then a robot file"}
              .of_file(),
          s.base);
 }
@@ -93,31 +96,32 @@ constexpr config::Range parallel_actuators = {1, 100, "actuators in parallel"};
 
 template <class Visitor>
 void fields(Visitor& v, DynamicSettings& s) {
-  v.method({"dynamic", "viscous loss and dry friction from a mass that swings on trapped air"});
-  v.file(Setting{"actuator", "file with braid, tension and ends; a start"}.required(), s.actuator);
-  v.text({"name", "which actuator, where the file has several"}, s.name);
-  v.quantities(Setting{"mass", "that moves; one, or one per file with commas", "kg",
+  v.method(
+      {"dynamic", "Find viscous loss and dry friction from a mass that swings on trapped air"});
+  v.file(Setting{"actuator", "file of braid, tension and ends, as a start"}.required(), s.actuator);
+  v.text({"name", "name of the actuator, where the file has several"}, s.name);
+  v.quantities(Setting{"mass", "mass that moves; one, or one per file with commas", "kg",
                        config::above_zero(1e6, "hangs on the muscle")}
                    .required(),
                s.mass);
   v.quantities(
-      {"pressure", "of the air as the mass hangs; one, or one per file; absent: the measured one",
+      {"pressure", "air pressure as the mass hangs; one, or one per file; default: as measured",
        "Pa abs", config::air_pressure},
       s.pressure);
   v.quantities(
-      {"external_volume", "of hose and fittings up to the shut valve; one, or one per file", "m3",
-       config::air_volume},
+      {"external_volume", "volume of hose and fittings up to the shut valve; one, or one per file",
+       "m3", config::air_volume},
       s.external_volume);
-  v.quantity({"exponent", "of the trapped air; absent: from the measured pressure, else 1.4 [39]",
+  v.quantity({"exponent", "polytropic exponent; default: from measured pressure, else 1.4 [39]",
               "1", config::polytropic},
              s.exponent);
   v.integer({"count", "actuators in parallel", "", parallel_actuators}, s.count);
   v.hold_out(Setting{"hold_out",
-                     "a file that scores the laws and is not fitted; absent: each file in turn, or "
+                     "file that scores the laws and is not fitted; default: each file in turn, or "
                      "the last third of the only one"}
                  .repeated(),
              s.hold_out);
-  v.choice({"model", "only this law"}, s.model, dynamic_models());
+  v.choice({"model", "fit only this law"}, s.model, dynamic_models());
   fields(v, s.constraints);
 }
 
@@ -152,14 +156,14 @@ void load_fields(Visitor& v, JointSettings& s) {
   constexpr config::Range angle{-turns, turns, "two turns; a joint makes less than one"};
   constexpr config::Range mass = config::from_zero(1e6, "of what hangs on a joint");
   constexpr config::Range lever = config::from_zero(1000, "from the joint's axis");
-  v.quantity({"rest_angle", "of the joint, at which the muscles' lengths are given", "rad", angle},
+  v.quantity({"rest_angle", "joint angle at which the muscles' lengths are given", "rad", angle},
              s.rest_angle);
   v.quantity({"load", "mass at the lever, where no column torque or load has it", "kg", mass},
              s.load);
-  v.quantity({"lever", "from the joint to the load", "m", lever}, s.lever);
+  v.quantity({"lever", "distance from the joint to the load", "m", lever}, s.lever);
   v.quantity({"down", "angle at which the lever points straight down", "rad", angle}, s.down);
   v.quantity({"limb", "mass of the limb itself", "kg", mass}, s.limb);
-  v.quantity({"limb_lever", "from the joint to the limb's center of mass", "m", lever},
+  v.quantity({"limb_lever", "distance from the joint to the limb's center of mass", "m", lever},
              s.limb_lever);
 }
 
@@ -167,43 +171,41 @@ void load_fields(Visitor& v, JointSettings& s) {
 template <class Visitor>
 void known_fields(Visitor& v, JointSettings& s) {
   constexpr config::Range size = config::above_zero(1000, "of a robot");
-  const std::string_view known = "is known, at the rest angle";
+  const std::string_view known = "known value at the rest angle, which is not fitted";
   v.quantity({"moment_arm", known, "m", size}, s.moment_arm);
   v.quantity({"flexor_length", known, "m", size}, s.flexor_length);
   v.quantity({"extensor_length", known, "m", size}, s.extensor_length);
-  v.flag({"keep_force", "the effectiveness of the actuator's file is right"}, s.keep_force);
-  v.flag({"torque_bias", "the torque of each file has a zero of its own, which is to be found"},
-         s.torque_bias);
+  v.flag({"keep_force", "keep the effectiveness of the actuator's file"}, s.keep_force);
+  v.flag({"torque_bias", "fit an offset of the torque for each file"}, s.torque_bias);
   v.flag({"torque_gain",
-          "and a gain in that of the first file; where the force is kept the first has one, too"},
+          "fit a torque gain for each file but the first; if the force is kept, for it too"},
          s.torque_gain);
   v.flag({"moving",
-          "the joint moves, over a column time: its dry friction and damping, and how far the "
-          "torque comes behind"},
+          "the joint moves, over a column time; also fit its dry friction and damping, and the "
+          "delay of the torque"},
          s.moving);
 }
 
 template <class Visitor>
 void fields(Visitor& v, JointSettings& s) {
-  v.method({"joint", "force law and moment arm from joint angle, pressures and a known load",
+  v.method({"joint", "Find force law and moment arm from joint angle, pressures and a known load",
             Tables::needed, joint_models().size()});
-  v.file(Setting{"actuator", "file with the braid; a start"}.required(), s.actuator);
-  v.text({"name", "which actuator, where the file has several"}, s.name);
+  v.file(Setting{"actuator", "file with the braid, as a start"}.required(), s.actuator);
+  v.text({"name", "name of the actuator, where the file has several"}, s.name);
   v.integer({"count", "actuators in parallel in a muscle", "", {1, 100, "actuators in parallel"}},
             s.count);
-  v.choice({"flexion", "what a shorter flexor does to the angle"}, s.names.flexion,
+  v.choice({"flexion", "effect of a shorter flexor on the angle"}, s.names.flexion,
            {"raises angle", "lowers angle"});
   load_fields(v, s);
   known_fields(v, s);
   v.hold_out(
-      {"hold_out", "a file that scores the models and is not fitted; absent: every third row"},
+      {"hold_out", "file that scores the models and is not fitted; default: every third row"},
       s.hold_out);
-  v.choice({"model", "only this one"}, s.model, joint_models());
-  v.text(Setting{"joint", "its name in the robot's file"}.in_python("joint_name"), s.names.joint);
-  v.text({"flexor", "the muscle's name; absent: <joint>_flexor"}, s.names.flexor);
-  v.text({"extensor", "the muscle's name; absent: <joint>_extensor"}, s.names.extensor);
-  v.file(Setting{"base", "robot whose joint it is, named in the file that is written"}.of_file(),
-         s.base);
+  v.choice({"model", "fit only this model"}, s.model, joint_models());
+  v.text(Setting{"joint", "name in the robot's file"}.in_python("joint_name"), s.names.joint);
+  v.text({"flexor", "name of the flexor; default: <joint>_flexor"}, s.names.flexor);
+  v.text({"extensor", "name of the extensor; default: <joint>_extensor"}, s.names.extensor);
+  v.file(Setting{"base", "robot file with this joint, base of the written file"}.of_file(), s.base);
   fields(v, s.constraints);
 }
 
@@ -221,25 +223,23 @@ struct PairSettings {
 template <class Visitor>
 void fields(Visitor& v, PairSettings& s) {
   v.method({"pair",
-            "stiffness, dry friction, losses and trapped air of an antagonistic pair that is "
+            "Find stiffness, dry friction, losses and trapped air of an antagonistic pair that is "
             "sealed and moved by hand or motor"});
-  v.text(
-      Setting{"rigs", "A,A,B: the rig of each file; recordings of one have its sensors in common"}
-          .at_commas(),
-      s.rigs);
+  v.text(Setting{"rigs", "A,A,B: rig of each file; files of one rig share its sensors"}.at_commas(),
+         s.rigs);
   v.hold_out(Setting{"hold_out",
-                     "\"7 s..14 s\" or \"7 s..\": times of each file, or a FILE, that score the "
-                     "laws and are not fitted"}
+                     "times of each file, \"7 s..14 s\" or \"7 s..\", or another file, that score "
+                     "the laws and are not fitted"}
                  .repeated(),
              s.hold_out);
-  v.quantity({"window", "of the parabolas that give velocity and acceleration", "s",
+  v.quantity({"window", "duration of the fitted parabolas that give velocity and acceleration", "s",
               config::above_zero(10, "of a few samples")},
              s.window);
-  v.choice({"model", "only this law"}, s.model, pair_models());
+  v.choice({"model", "fit only this law"}, s.model, pair_models());
   fields(v, s.constraints);
-  v.text(Setting{"joint", "its name in the robot's file that is written"}.in_python("joint_name"),
+  v.text(Setting{"joint", "name in the robot's file that is written"}.in_python("joint_name"),
          s.joint);
-  v.file({"base", "robot whose joint it is, named in the file that is written"}, s.base);
+  v.file({"base", "robot file with this joint, base of the written file"}, s.base);
 }
 
 // --- valve ---
@@ -255,41 +255,42 @@ struct ValveSettings {
 
 template <class Visitor>
 void fields(Visitor& v, ValveSettings& s) {
-  v.method(
-      {"valve",
-       "flow and delays, from a chart, a filling, pulses, a coil's current or a map of duties"});
-  v.choice({"kind", "what was measured; absent: by the columns"}, s.kind,
+  v.method({"valve",
+            "Find flow and delays of a valve from a chart, a filling, pulses, a coil's current or "
+            "a map of duties"});
+  v.choice({"kind", "what was measured; default: by the columns"}, s.kind,
            {"chart", "fill", "pulses", "coil", "duty"});
-  v.quantity({"volume", "fill, pulses: of the chamber, hoses included", "m3",
+  v.quantity({"volume", "fill, pulses: volume of the chamber, hoses included", "m3",
               config::above_zero(config::air_volume.high, config::air_volume.why)},
              s.volume);
-  v.quantity({"conductance", "fill, pulses: of the valve, for the volume instead", "m3/(s Pa)",
+  v.quantity({"conductance", "fill, pulses: conductance, in place of the volume", "m3/(s Pa)",
               config::above_zero(1, "a valve of this size fills a hall")},
              s.conductance);
   v.quantities({"added_volume",
-                "fill: joined to the chamber, of each file: \"0 L,0.5 L\"; two fillings give "
-                "conductance and volume apart",
+                "fill: volume joined to the chamber in each file, \"0 L,0.5 L\"; two fillings "
+                "separate conductance and volume",
                 "m3", config::air_volume},
                s.added_volume);
-  v.flag({"per_volume", "fill, pulses: C/V is enough"}, s.per_volume);
+  v.flag({"per_volume", "fill, pulses: find only conductance by volume, C/V"}, s.per_volume);
+  v.quantity(Setting{"port",
+                     "pressure on the valve's other side, the room's when venting; default: fitted",
+                     "Pa abs", config::air_pressure}
+                 .called("supply,port"),
+             s.port);
   v.quantity(
-      Setting{"port", "pressure on the valve's other side, the room's when venting; fitted without",
-              "Pa abs", config::air_pressure}
-          .called("supply,port"),
-      s.port);
-  v.quantity(
-      {"exponent", "fill: polytropic, of the chamber: 1 isothermal, 1.4 adiabatic; tried without",
+      {"exponent", "fill: polytropic exponent, 1 (isothermal) to 1.4 (adiabatic); default: tried",
        "1", config::polytropic},
       s.exponent);
-  v.quantity({"temperature", "of the air", "K", {200, 400, "of air in a laboratory"}},
+  v.quantity({"temperature", "temperature of the air", "K", {200, 400, "of air in a laboratory"}},
              s.temperature);
-  v.hold_out({"hold_out", "OTHER.csv that scores the model of a filling"}, s.hold_out);
-  v.text({"name", "of the valve"}, s.name);
-  v.file(
-      {"base", "VALVES.toml with a valve of that name: what is not identified is kept from there"},
-      s.base);
+  v.hold_out({"hold_out", "file of another filling, which scores the model"}, s.hold_out);
+  v.text({"name", "name of the valve"}, s.name);
+  v.file({"base",
+          "valves file with a valve of that name, from which all is kept that is not identified"},
+         s.base);
   v.quantity({"frequency",
-              "of the pulses: of a map of duties without such a column, and of the duties' timing",
+              "frequency of the pulses, for a map of duties without such a column and for the "
+              "duties' timing",
               "Hz", config::pulses},
              s.frequency);
 }
@@ -318,46 +319,44 @@ constexpr config::Range actuator_length = config::above_zero(1000, "of an actuat
 // Visits the settings that concern the tables.
 template <class Visitor>
 void table_fields(Visitor& v, StaticSettings& s) {
-  v.quantity(
-      {"rest_length", "of the muscle without pressure and load; without it the longest length", "m",
-       actuator_length},
-      s.rest_length);
-  v.file({"actuator", "a file whose braid is taken as known"}, s.actuator);
-  v.choice({"branch", "the points that are fitted: of filling, of venting, or both"}, s.branch,
-           {"fill", "vent", "both"});
-  v.texts({"fit_where", "NAME=VALUE,...: only such rows are fitted, the others held out"},
+  v.quantity({"rest_length", "rest length, without pressure and load; default: the longest length",
+              "m", actuator_length},
+             s.rest_length);
+  v.file({"actuator", "actuator file whose braid is taken as known"}, s.actuator);
+  v.choice({"branch", "points to fit: fill, vent or both"}, s.branch, {"fill", "vent", "both"});
+  v.texts({"fit_where", "NAME=VALUE,...: fit only rows with these values and hold out the others"},
           s.fit_where);
   v.hold_out({"hold_out",
-              "pressure (every second), length or muscle (each once) or another FILE, to score "
-              "what was not seen"},
+              "data that score and are not fitted: pressure (every second one), length or muscle "
+              "(each once), or another file"},
              s.hold_out);
   v.quantity({"diameter",
-              "of the air in the muscle without pressure and load: gives its volume, and the force "
-              "is compared with it",
+              "diameter of the air in the muscle without pressure and load; gives its volume, with "
+              "which the force is compared",
               "m", config::above_zero(1, "of a muscle")},
              s.diameter);
 }
 
 template <class Visitor>
 void fields(Visitor& v, StaticSettings& s) {
-  v.method({"static", "the static law of an actuator from force, length and pressure",
+  v.method({"static", "Find the static law of an actuator from force, length and pressure",
             Tables::needed, static_models().size()});
   table_fields(v, s);
   v.quantity({"volume",
-              "of the air in the (longest) muscle without pressure and load, where it was measured",
+              "air volume of the (longest) muscle without pressure and load, where it was measured",
               "m3", config::above_zero(1, "of a muscle")},
              s.volume);
-  v.flag({"anyway", "fit where a check is red, too; see `sinew identify check`"}, s.anyway);
-  v.texts({"predict",
-           "rest_length=LENGTH: also a muscle that was not measured, in a file of its own", "m"},
+  v.flag({"anyway", "fit even if a check is red; see `sinew identify check`"}, s.anyway);
+  v.texts({"predict", "rest_length=LENGTH: also write this unmeasured muscle, in a file of its own",
+           "m"},
           s.predict);
-  v.text({"model", "this one alone"}, s.model);
-  v.text({"name", "of the actuator"}, s.name);
+  v.text({"model", "fit only this law"}, s.model);
+  v.text({"name", "name of the actuator"}, s.name);
 }
 
 template <class Visitor>
 void fields(Visitor& v, CheckSettings& s) {
-  v.method({"check", "are measurements plausible, and what can `identify static` find in them"});
+  v.method({"check", "Check measurements and list what `identify static` can find in them"});
   table_fields(v, s.how);
 }
 
@@ -371,8 +370,8 @@ struct CreepSettings {
 template <class Visitor>
 void fields(Visitor& v, CreepSettings&) {
   v.method({"creep",
-            "creep and dry friction from force at one length while the muscle is filled, held and "
-            "vented; they belong into an actuator's [creep] and [hysteresis]",
+            "Find creep and dry friction, an actuator's [creep] and [hysteresis], from force at "
+            "one length while the muscle is filled, held and vented",
             Tables::needed, creep_models().size()});
 }
 
@@ -385,20 +384,20 @@ struct ScaleSettings {
 
 template <class Visitor>
 void fields(Visitor& v, ScaleSettings& s) {
-  v.method(
-      {"scale", "a muscle of another rest length than those that were measured", Tables::none});
-  v.file(Setting{"file", "an actuator that `identify static` wrote"}.required().called("FILE"),
-         s.file);
-  v.quantity(Setting{"rest_length", "of the new muscle, without pressure and load", "m",
+  v.method({"scale", "Scale an identified muscle to another rest length", Tables::none});
+  v.file(
+      Setting{"file", "actuator file that `identify static` has written"}.required().called("FILE"),
+      s.file);
+  v.quantity(Setting{"rest_length", "rest length of the new muscle, without pressure and load", "m",
                      config::above_zero(1000, "of a muscle")}
                  .required(),
              s.rest_length);
-  v.text({"actuator", "which one, where the file has several"}, s.actuator);
-  v.text(
-      {"reading", "one of the new muscle at rest, to correct the law: \"LENGTH, PRESSURE, FORCE\""},
-      s.reading);
-  v.text({"name", "of the new actuator; as in the file"}, s.name);
-  v.text({"atmosphere", "the pressure of the room"}, s.atmosphere);
+  v.text({"actuator", "name of the actuator, where the file has several"}, s.actuator);
+  v.text({"reading",
+          "LENGTH,PRESSURE,FORCE: one reading of the new muscle at rest, which corrects the law"},
+         s.reading);
+  v.text({"name", "name of the new actuator; default: as in the file"}, s.name);
+  v.text({"atmosphere", "pressure of the room"}, s.atmosphere);
 }
 
 // --- run ---
@@ -417,43 +416,38 @@ struct RunFitSettings {
 
 template <class Visitor>
 void fields(Visitor& v, RunFitSettings& s) {
-  v.method({"run", "friction, damping, dead times, volumes, leaks from a run of a robot itself",
+  v.method({"run", "Find friction, damping, dead times, volumes and leaks from a run of a robot",
             Tables::none});
-  v.file(Setting{"run", "a run's folder, or a log file; an imported recording's too"}
-             .required()
-             .called("RUN"),
+  v.file(Setting{"run", "run folder or log file, also of an imported recording"}.required().called(
+             "RUN"),
          s.run);
   v.texts(Setting{"fit",
-                  "keys, and groups of them: friction, damping, dead-time, volume, leak; absent: "
-                  "all groups"}
+                  "keys, or groups of keys, to fit: friction, damping, dead-time, volume, leak; "
+                  "default: all groups"}
               .at_commas(),
           s.fit);
-  v.file({"machine", "what was run, in place of the folder's"}, s.machine);
-  v.texts(
-      Setting{"sets", "KEY=VALUE: where the search begins, or what is known"}.called("start,set"),
-      s.sets);
-  v.texts(Setting{"priors", "\"KEY=VALUE +- DEVIATION\": what is known of a fitted number"}.called(
-              "prior"),
+  v.file({"machine", "machine that was run; default: resolved.toml in the folder"}, s.machine);
+  v.texts(Setting{"sets", "KEY=VALUE: start of the search, or a known value"}.called("start,set"),
+          s.sets);
+  v.texts(Setting{"priors", "KEY=VALUE±DEVIATION: prior of a fitted number"}.called("prior"),
           s.priors);
-  v.texts({"freeze", "KEY=VALUE: a number that is known and not fitted"}, s.freeze);
+  v.texts({"freeze", "KEY=VALUE: known number, which is not fitted"}, s.freeze);
   v.quantity({"hold_out",
-              "of the run, at its end: scores and is not fitted; 100 %: nothing is fitted, and the "
-              "machine is scored as it is",
+              "share of the run, at its end, that scores and is not fitted; 100 %: fit nothing and "
+              "score the machine as it is",
               "1"},
              s.hold_out);
-  v.file(
-      {"score",
-       "another run of the machine: its valve commands alone drive what was identified, and rms, "
-       "nrmse and correlation are reported"},
-      s.score);
-  v.quantity(Setting{"from", "what is before is not compared", "s",
+  v.file({"score",
+          "another run of the machine, whose valve commands drive what was identified; reports "
+          "rms, nrmse and correlation"},
+         s.score);
+  v.quantity(Setting{"from", "time in the run before which nothing is compared", "s",
                      config::from_zero(1e6, "a time of the run")}
                  .in_python("begin"),
              s.from);
-  v.integer(
-      {"threads", "simulations at once; 0: one for each processor", "", {0, 1024, "simulations"}},
-      s.threads);
-  v.file(Setting{"base", "the robot's file, named in the one that is written"}.of_file(), s.base);
+  v.integer({"threads", "simulations at once; 0: one per processor", "", {0, 1024, "simulations"}},
+            s.threads);
+  v.file(Setting{"base", "robot file, which the written file names as its base"}.of_file(), s.base);
 }
 
 // --- plan ---
@@ -471,27 +465,27 @@ struct PlanSettings {
 template <class Visitor>
 void measurement_fields(Visitor& v, PlanSettings& s) {
   constexpr config::Range length = config::above_zero(1000, "of an actuator");
-  v.quantity(
-      {"rest_length", "of the muscle without pressure and load; without it the longest length", "m",
-       length},
-      s.rest_length);
-  v.choice({"branch", "of DATA: fill, vent or both"}, s.branch, {"fill", "vent", "both"});
-  v.quantity({"diameter", "of the mesh without pressure and load", "m",
+  v.quantity({"rest_length", "rest length, without pressure and load; default: the longest length",
+              "m", length},
+             s.rest_length);
+  v.choice({"branch", "points of DATA to use: fill, vent or both"}, s.branch,
+           {"fill", "vent", "both"});
+  v.quantity({"diameter", "diameter of the mesh without pressure and load", "m",
               config::above_zero(1, "of a muscle")},
              s.diameter);
-  v.file(
-      {"actuator",
-       "a file with a muscle like it, in place of the diameter; with DATA: whose braid is known"},
-      s.actuator);
-  v.quantity({"pressure", "the highest that will be measured", "Pa gauge",
+  v.file({"actuator",
+          "similar muscle, in place of the diameter; with DATA: file whose braid is known"},
+         s.actuator);
+  v.quantity({"pressure", "highest pressure that will be measured", "Pa gauge",
               config::above_zero(5e6, "above the room's, in a muscle")},
              s.pressure);
   v.quantity(
-      {"noise", "of one reading of force, a standard deviation; absent: 2 N, or what DATA scatter",
+      {"noise", "standard deviation of one force reading; default: 2 N, or the scatter of DATA",
        "N", config::above_zero(1e4, "of a force")},
       s.noise);
-  v.quantity({"length_error", "of a mount's length", "m", config::from_zero(0.1, "of a mount")},
-             s.length_error);
+  v.quantity(
+      {"length_error", "error of a mount's length", "m", config::from_zero(0.1, "of a mount")},
+      s.length_error);
 }
 
 // Visits the settings of the required accuracy and the effort.
@@ -499,23 +493,22 @@ template <class Visitor>
 void aim_fields(Visitor& v, PlanSettings& s) {
   constexpr config::Range time = config::from_zero(86400, "more than a day for one step");
   constexpr config::Range length = config::above_zero(1000, "of an actuator");
-  v.quantity(
-      {"law_error", "that the law itself is off by, of the largest force; no measurement lowers it",
-       "1", config::from_zero(0.5, "of the largest force")},
-      s.law_error);
-  v.quantity({"error", "to reach, of the largest force", "1",
+  v.quantity({"law_error",
+              "error of the law itself, a share of the largest force; no measurement lowers it",
+              "1", config::from_zero(0.5, "of the largest force")},
+             s.law_error);
+  v.quantity({"error", "error to reach, a share of the largest force", "1",
               config::above_zero(0.5, "of the largest force")},
              s.error);
   v.choice({"criterion",
-            "mean: the error is a root mean square over the region; worst: half of the 95 % "
-            "interval at its worst place"},
+            "mean: root mean square error over the region; worst: half of the 95 % interval at its "
+            "worst place"},
            s.criterion, {"mean", "worst"});
-  v.quantity({"mount_time", "to change the length", "s", time}, s.mount_time);
-  v.quantity({"step_time", "to change the pressure, wait and read", "s", time}, s.step_time);
-  v.quantity({"shortest", "length from which the law is to hold", "m", length}, s.shortest);
-  v.quantity({"longest", "length up to which it is to hold; absent: the rest length", "m", length},
-             s.longest);
-  v.quantity({"lowest", "pressure at which it is", "Pa gauge",
+  v.quantity({"mount_time", "time to change the length", "s", time}, s.mount_time);
+  v.quantity({"step_time", "time to change the pressure, wait and read", "s", time}, s.step_time);
+  v.quantity({"shortest", "shortest length at which the law is to hold", "m", length}, s.shortest);
+  v.quantity({"longest", "longest such length; default: the rest length", "m", length}, s.longest);
+  v.quantity({"lowest", "lowest pressure at which the law is to hold", "Pa gauge",
               config::above_zero(5e6, "above the room's, in a muscle")},
              s.lowest);
   v.integer({"most", "mounts at most", "", {3, 100, "mounts; fewer cannot try a law"}}, s.most);
@@ -523,7 +516,7 @@ void aim_fields(Visitor& v, PlanSettings& s) {
 
 template <class Visitor>
 void fields(Visitor& v, PlanSettings& s) {
-  v.method({"plan", "which lengths and pressures to measure for an error, and in how many minutes",
+  v.method({"plan", "Plan lengths and pressures to measure for an error, and the minutes it takes",
             Tables::optional});
   measurement_fields(v, s);
   aim_fields(v, s);
@@ -556,34 +549,35 @@ void fields(Visitor& v, TransducerSettings& s) {
   constexpr config::Range stress = config::above_zero(1e13, "diamond has 1.2e12 N/m2");
   constexpr config::Range voltage = config::above_zero(1000, "of an instrument");
   v.method({"force-beam",
-            "strain, safety and output of a beam with strain gages; without options the thesis's",
+            "Compute strain, safety and output of a beam with strain gages; default: the thesis's",
             Tables::none});
-  v.quantity({"length", "from the load to the mount", "m", size}, s.length);
-  v.quantity({"width", "of the beam", "m", size}, s.width);
-  v.quantity({"height", "in the direction of the load", "m", size}, s.height);
-  v.quantity({"gages", "from the load to the middle of the gages", "m", size}, s.gages);
-  v.quantity({"modulus", "Young's, of the material", "N/m2", stress}, s.modulus);
+  v.quantity({"length", "distance from the load to the mount", "m", size}, s.length);
+  v.quantity({"width", "width of the beam", "m", size}, s.width);
+  v.quantity({"height", "height of the beam, in the direction of the load", "m", size}, s.height);
+  v.quantity({"gages", "distance from the load to the middle of the gages", "m", size}, s.gages);
+  v.quantity({"modulus", "Young's modulus of the material", "N/m2", stress}, s.modulus);
   v.number(
       {"poisson", "Poisson's ratio", "", config::from_zero(0.5, "no stretched solid gains more")},
       s.poisson);
-  v.quantity(
-      Setting{"yield", "stress at which it yields", "N/m2", stress}.in_python("yield_stress"),
-      s.yield);
-  v.number({"concentration", "of stress at the mount", "", {1, 100, "a mount adds to the stress"}},
+  v.quantity(Setting{"yield", "yield stress", "N/m2", stress}.in_python("yield_stress"), s.yield);
+  v.number({"concentration",
+            "stress concentration factor at the mount",
+            "",
+            {1, 100, "a mount adds to the stress"}},
            s.concentration);
   v.choice({"bridge",
-            "quarter: one gage; half: above and below; poisson: above and below, along and across; "
-            "bending: two above, two below"},
+            "gages of the bridge: quarter (one), half (above and below), poisson (above and below, "
+            "along and across) or bending (two above, two below)"},
            s.bridge, {"quarter", "half", "poisson", "bending"});
-  v.number({"gage_factor", "of the gages", "", config::above_zero(1000, "semiconductors have 200")},
+  v.number({"gage_factor", "gage factor", "", config::above_zero(1000, "semiconductors have 200")},
            s.gage_factor);
-  v.quantity({"excitation", "of the bridge", "V", voltage}, s.excitation);
-  v.number({"gain", "of the amplifier", "", config::above_zero(1e6, "of an amplifier")}, s.gain);
-  v.quantity({"full_scale", "of the converter", "V", voltage}, s.full_scale);
-  v.integer({"bits", "of the converter", "", {1, 24, "of a converter"}}, s.bits);
-  v.quantity({"load", "at the free end", "N", config::above_zero(1e9, "at the beam's free end")},
+  v.quantity({"excitation", "supply voltage of the bridge", "V", voltage}, s.excitation);
+  v.number({"gain", "amplifier's gain", "", config::above_zero(1e6, "of an amplifier")}, s.gain);
+  v.quantity({"full_scale", "voltage of the largest count", "V", voltage}, s.full_scale);
+  v.integer({"bits", "bits of the converter", "", {1, 24, "of a converter"}}, s.bits);
+  v.quantity({"load", "load at its end", "N", config::above_zero(1e9, "at the beam's free end")},
              s.load);
-  v.quantity({"sensitivity", "to reach: gives where the gages must be", "V/N",
+  v.quantity({"sensitivity", "sensitivity to reach; gives the places of the gages", "V/N",
               config::above_zero(1e9, "output by load")},
              s.sensitivity);
 }

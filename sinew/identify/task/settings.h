@@ -134,10 +134,11 @@ std::vector<Source> held_out_tables(const HeldOut& hold_out, const std::vector<S
 // Visits the constraints on parameters, which are the same for each method.
 template <class Visitor>
 void fields(Visitor& v, ConstraintTexts& constraints) {
-  v.texts({"freeze", "NAME=VALUE: a parameter that is known and not fitted"}, constraints.freeze);
-  v.texts({"prior", "NAME=VALUE±DEVIATION: what is known of a parameter, and how well"},
+  v.texts({"freeze", "NAME=VALUE: known value of a parameter, which is not fitted"},
+          constraints.freeze);
+  v.texts({"prior", "NAME=VALUE±DEVIATION: prior of a parameter, with its standard deviation"},
           constraints.prior);
-  v.texts({"tie", "NAME=OTHER: two parameters that are one"}, constraints.tie);
+  v.texts({"tie", "NAME=OTHER: two parameters that have one value"}, constraints.tie);
 }
 
 // The settings of a method in SI. The constructor checks each row. It throws config::Error, which
