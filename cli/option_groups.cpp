@@ -67,7 +67,7 @@ void add_table_options(CLI::App& sub, TableOptions& options, Settings& settings)
                "spread rows that share a time evenly up to the next time")
       ->group(table_heading);
   sub.add_flag("--drop-incomplete", settings.drop_incomplete,
-               "leave out rows with cells that are empty or no numbers, and report how many")
+               "leave out rows with cells that are empty or not numbers, and count them")
       ->group(table_heading);
   add("--encoding", settings.encoding, "encoding of a file, where its letters do not show it")
       ->check(one_of({"utf-8", "utf-16le", "utf-16be", "latin1"}));

@@ -120,8 +120,8 @@ std::string a_pace(const std::string& text) {
 // Adds --output, --force and --set of a command that makes a run of an experiment.
 template <class Request>
 void add_folder(CLI::App& sub, Request& request) {
-  sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");
-  sub.add_flag("--force", request.force, "replace the run that is in the folder");
+  sub.add_option("-o,--output", request.folder, "DIR: folder; default: next runs/<experiment>/<n>");
+  sub.add_flag("--force", request.force, "replace an existing run");
   add_sets(sub, request.sets);
 }
 
