@@ -1,5 +1,7 @@
 #include "fmu/muscle/muscle.h"
 
+#include <tuple>
+
 #include "fmu/muscle/muscle_fields.h"
 #include "fmu/slave/discarded.h"
 #include "fmu/slave/saved.h"
@@ -94,19 +96,8 @@ Muscle::Muscle(const Description& description) {
 }
 
 void Muscle::place_variables(const std::vector<Parameter>& list, const MuscleStart& start) {
-  at_.length = sheet_.add({.name = "length",
-                           .causality = Causality::input,
-                           .unit = "m",
-                           .start = start.length,
-                           .min = 0,
-                           .doc = "from end to end at the step's begin, with its caps",
-                           .rate = static_cast<int>(sheet_.variables().size()) + 1});
-  at_.rate = sheet_.add({.name = "rate",
-                         .causality = Causality::input,
-                         .unit = "m/s",
-                         .min = -100,
-                         .max = 100,
-                         .doc = "of the length, below 0 while it contracts"});
+  std::tie(at_.length, at_.rate) =
+      add_length(sheet_, start.length, "from end to end at the step's begin, with its caps");
   at_.valves = add_valves(sheet_, muscle_, "");
   const auto output = [&](const char* name, const char* unit, const char* doc) {
     return sheet_.add({.name = name, .causality = Causality::output, .unit = unit, .doc = doc});

@@ -3,8 +3,9 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
-#include "fmu/slave/parameters.h"
+#include "fmu/slave/sheet.h"
 #include "sinew/actuator/actuator.fields.h"
 #include "sinew/air/muscle.h"
 #include "sinew/gas/air.fields.h"
@@ -35,6 +36,24 @@ void fields(Visitor& v, air::Muscle& muscle) {
     v.group({.name = "exhaust"}, [&](auto& g) { gas::fields(g, muscle.exhaust); });
   v.group({.name = "hose"}, [&](auto& g) { gas::fields(g, muscle.hose); });
   v.group({.name = "leak"}, [&](auto& g) { gas::fields(g, muscle.leak); });
+}
+
+// Adds the inputs of a muscle's length and its rate; returns their indices.
+inline std::pair<std::size_t, std::size_t> add_length(Sheet& sheet, double start, const char* doc) {
+  using C = Variable::Causality;
+  const std::size_t length = sheet.add({.name = "length",
+                                        .causality = C::input,
+                                        .unit = "m",
+                                        .start = start,
+                                        .min = 0,
+                                        .doc = doc,
+                                        .rate = static_cast<int>(sheet.variables().size()) + 1});
+  return {length, sheet.add({.name = "rate",
+                             .causality = C::input,
+                             .unit = "m/s",
+                             .min = -100,
+                             .max = 100,
+                             .doc = "of the length, below 0 while it contracts"})};
 }
 
 // Returns the fault of an actuator's length with the importer's name for it: shorter than the caps

@@ -1,6 +1,7 @@
 #include "fmu/muscle/tube.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "fmu/muscle/muscle_fields.h"
 #include "fmu/slave/discarded.h"
@@ -51,19 +52,8 @@ Tube::Tube(const Description& description) {
 
 void Tube::place_variables(const std::vector<Parameter>& list) {
   using C = Variable::Causality;
-  at_.length = sheet_.add({.name = "length",
-                           .causality = C::input,
-                           .unit = "m",
-                           .start = actuator_.long_end.length,
-                           .min = 0,
-                           .doc = "from end to end, with its caps",
-                           .rate = static_cast<int>(sheet_.variables().size()) + 1});
-  at_.rate = sheet_.add({.name = "rate",
-                         .causality = C::input,
-                         .unit = "m/s",
-                         .min = -100,
-                         .max = 100,
-                         .doc = "of the length, below 0 while it contracts"});
+  std::tie(at_.length, at_.rate) =
+      add_length(sheet_, actuator_.long_end.length, "from end to end, with its caps");
   at_.pressure = sheet_.add({.name = "gauge_pressure",
                              .causality = C::input,
                              .unit = "Pa",

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -61,6 +62,23 @@ inline std::string without_controls(std::string_view text) {
     at += std::max<std::size_t>(left_out, 1);
   }
   return out;
+}
+
+// Appends the character of that code.
+inline void append_letter(std::uint32_t code, std::string& out) {
+  const auto byte = [&out](std::uint32_t b) { out += static_cast<char>(b); };
+  if (code < 0x80) return byte(code);
+  if (code < 0x800) {
+    byte(0xC0 | (code >> 6));
+  } else if (code < 0x10000) {
+    byte(0xE0 | (code >> 12));
+    byte(0x80 | ((code >> 6) & 0x3F));
+  } else {
+    byte(0xF0 | (code >> 18));
+    byte(0x80 | ((code >> 12) & 0x3F));
+    byte(0x80 | ((code >> 6) & 0x3F));
+  }
+  byte(0x80 | (code & 0x3F));
 }
 
 // Replaces each byte that is not UTF-8 by U+FFFD.

@@ -208,19 +208,14 @@ std::string ColumnFinder::near_name(const std::string& name) const {
 // Requires that the names in `names`, `units` and the like exist.
 void ColumnFinder::check_names(std::span<const ColumnSpec> specs) {
   const auto known = config::names_of(specs);
-  for (const auto& [name, file_name] : source_.names)
+  const auto check = [&](const char* setting, const std::string& name) {
     if (std::ranges::find(known, name) == known.end())
-      problems_.add(0, 0, "names", config::in_quotes(name), config::either(known),
+      problems_.add(0, 0, setting, config::in_quotes(name), config::either(known),
                     config::closest_in_quotes(name, known));
-  for (const auto& [name, offset] : source_.offsets)
-    if (std::ranges::find(known, name) == known.end())
-      problems_.add(0, 0, "offsets", config::in_quotes(name), config::either(known),
-                    config::closest_in_quotes(name, known));
-  for (const std::string& setting : source_.values)
-    if (const std::string name = stated_in(setting).name;
-        std::ranges::find(known, name) == known.end())
-      problems_.add(0, 0, "values", config::in_quotes(name), config::either(known),
-                    config::closest_in_quotes(name, known));
+  };
+  for (const auto& [name, file_name] : source_.names) check("names", name);
+  for (const auto& [name, offset] : source_.offsets) check("offsets", name);
+  for (const std::string& setting : source_.values) check("values", stated_in(setting).name);
   check_columns(grid_, "units", source_.units, problems_);
 }
 

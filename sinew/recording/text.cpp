@@ -104,22 +104,6 @@ std::size_t first_other_byte(std::string_view text) {
   return text.size();
 }
 
-void append_letter(std::uint32_t code, std::string& out) {
-  const auto byte = [&out](std::uint32_t b) { out += static_cast<char>(b); };
-  if (code < 0x80) return byte(code);
-  if (code < 0x800) {
-    byte(0xC0 | (code >> 6));
-  } else if (code < 0x10000) {
-    byte(0xE0 | (code >> 12));
-    byte(0x80 | ((code >> 6) & 0x3F));
-  } else {
-    byte(0xF0 | (code >> 18));
-    byte(0x80 | ((code >> 12) & 0x3F));
-    byte(0x80 | ((code >> 6) & 0x3F));
-  }
-  byte(0x80 | (code & 0x3F));
-}
-
 // Windows-1252 characters where Latin-1 has none: the euro, quotes, dashes.
 constexpr std::uint32_t windows_letters[32] = {
     0x20AC, 0x81,   0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160,
@@ -131,7 +115,7 @@ std::string from_latin1(std::string_view bytes) {
   out.reserve(bytes.size() + bytes.size() / 16);
   for (const char c : bytes) {
     const std::uint32_t code = static_cast<unsigned char>(c);
-    append_letter(code >= 0x80 && code < 0xA0 ? windows_letters[code - 0x80] : code, out);
+    config::append_letter(code >= 0x80 && code < 0xA0 ? windows_letters[code - 0x80] : code, out);
   }
   return out;
 }
@@ -158,7 +142,7 @@ std::string from_utf16(std::string_view bytes, bool little_end_first, const std:
       if (at >= end || unit(at) < 0xDC00 || unit(at) >= 0xE000) refuse_half_letter(file);
       code = 0x10000 + ((code - 0xD800) << 10) + (unit(at) - 0xDC00);
     }
-    append_letter(code, out);
+    config::append_letter(code, out);
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sinew/config/utf8.h"
 #include "sinew/recording/module/matlab.h"
 
 namespace {
@@ -74,16 +75,10 @@ std::string text_of(const matvar_t& of, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const unsigned letter = of.data_size == 2 ? static_cast<const std::uint16_t*>(of.data)[i]
                                               : static_cast<const std::uint8_t*>(of.data)[i];
-    if (letter < 0x80 || of.data_size != 2) {
+    if (of.data_size == 2)
+      sinew::config::append_letter(letter, out);
+    else
       out += static_cast<char>(letter);
-    } else if (letter < 0x800) {
-      out += static_cast<char>(0xC0 | letter >> 6);
-      out += static_cast<char>(0x80 | (letter & 0x3F));
-    } else {
-      out += static_cast<char>(0xE0 | letter >> 12);
-      out += static_cast<char>(0x80 | (letter >> 6 & 0x3F));
-      out += static_cast<char>(0x80 | (letter & 0x3F));
-    }
   }
   return out;
 }
