@@ -14,6 +14,7 @@
 #include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/actuator/static_labels.h"
 #include "sinew/identify/actuator/static_slopes.h"
+#include "sinew/identify/contest/bounds.h"
 #include "sinew/identify/contest/least_squares.h"
 #include "sinew/identify/contest/matrix.h"
 #include "sinew/identify/contest/refusal.h"
@@ -40,7 +41,8 @@ void widen(const Slopes& slopes, std::span<const Parameter> parameters, std::siz
   Matrix j(count, n);  // per scale
   slopes(solution.values, left, {j.column(0).data(), count * n});
   for (std::size_t i = 0; i < n; ++i)
-    for (double& x : j.column(i)) x *= solution.estimates[i].at_bound ? 0 : parameters[i].scale;
+    for (double& x : j.column(i))
+      x *= solution.estimates[i].at_bound || !solution.estimates[i].free ? 0 : parameters[i].scale;
   const Matrix pull = product(j, inverse_where_determined(transposed_product(j, j)));
   const std::size_t points = settings.size();
   const auto setting = [&](std::size_t r) {
@@ -303,25 +305,34 @@ StaticFit fit_static(const std::vector<FreeParameter>& free_parameters,
                       : fmt::format("{} points", points.size()),
                   fmt::format("at least {} for {} parameters", parameters + 2, parameters),
                   "more measurements, or a simpler model");
-  std::vector<Parameter> from = problem.parameters();
+  FitProblem search{.count = problem.count(), .parameters = problem.parameters()};
   if (start) {
     out.scatter = start->scatter;
-    const std::vector<double> values = problem.values(start->setting);
-    for (std::size_t i = 0; i < from.size(); ++i) from[i].start = values[i];
+    search.constraints = start->constraints;
+    for (Parameter& p : search.parameters)
+      if (const auto same = std::ranges::find(start->parameters, p.name, &Parameter::name);
+          same != start->parameters.end() && same->may_widen)
+        p.low = same->low, p.high = same->high;
+    start_at(problem.values(start->setting), search);
   } else {
     const Solution first =
         least_squares_from(problem.residuals(first_scatter * scales.full_scale), problem.count(),
-                           from, starts_of(from, free_parameters),
+                           search.parameters, starts_of(search.parameters, free_parameters),
                            {.tolerance = std::max(tolerance, 1e-9),
                             .slopes = problem.slopes(first_scatter * scales.full_scale)});
     out.scatter = scatter_of(first.residuals, points, scales);
-    for (std::size_t i = 0; i < from.size(); ++i) from[i].start = first.values[i];
+    start_at(first.values, search);
   }
-  out.solution = least_squares(problem.residuals(out.scatter), problem.count(), from,
-                               {.outlier = outlier * out.scatter,
-                                .correlated = true,
-                                .tolerance = tolerance,
-                                .slopes = problem.slopes(out.scatter)});
+  search.residuals = problem.residuals(out.scatter);
+  search.options = {.outlier = outlier * out.scatter,
+                    .correlated = true,
+                    .tolerance = tolerance,
+                    .slopes = problem.slopes(out.scatter)};
+  out.solution = start ? least_squares(search.residuals, search.count, search.parameters,
+                                       search.constraints, search.options)
+                       : least_squares_within(search);
+  out.parameters = search.parameters;
+  out.constraints = search.constraints;
   out.setting = problem.setting(out.solution.values);
   if (!start)
     widen(problem.slopes(out.scatter), problem.parameters(), problem.count(), settings, out.scatter,
@@ -332,7 +343,7 @@ StaticFit fit_static(const std::vector<FreeParameter>& free_parameters,
   for (std::size_t i = 0; i < free_parameters.size(); ++i) {
     Estimate& e = out.solution.estimates[i];
     const auto& prior = problem.prior(i);
-    if (!prior || e.at_bound) continue;
+    if (!prior || e.at_bound || !e.free) continue;
     if (e.standard_error < prior_rules * prior->deviation_at(e.value)) continue;
     e.identifiable = false;
     out.unknown.push_back(free_parameters[i]);
@@ -352,9 +363,9 @@ Refit refit_of(const StaticFit& fit, std::span<const StaticPoint> points,
   const auto held = std::make_shared<const Held>(fit.free_parameters,
                                                  std::vector(points.begin(), points.end()), scales);
   FitProblem out{.count = held->problem.count(),
-                 .parameters = held->problem.parameters(),
+                 .parameters = fit.parameters,
                  .options = {.outlier = outlier * fit.scatter},
-                 .constraints = {},
+                 .constraints = fit.constraints,
                  .data = points.size()};
   out.residuals = [held, residuals = held->problem.residuals(fit.scatter)](
                       std::span<const double> p, std::span<double> r) { return residuals(p, r); };

@@ -15,6 +15,7 @@
 
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/actuator/static_model.h"
+#include "sinew/identify/contest/constraint.h"
 #include "sinew/identify/contest/fit.h"
 
 namespace sinew::identify {
@@ -22,8 +23,10 @@ namespace sinew::identify {
 struct StaticFit {
   StaticSetting setting;
   std::vector<FreeParameter> free_parameters;
-  Solution solution;   // free parameters, then doubted rest lengths; residuals of points alone
-  double scatter = 0;  // sigma [N]
+  Solution solution;  // free parameters, then doubted rest lengths; residuals of points alone
+  std::vector<Parameter> parameters;   // as they were searched, with widened bounds
+  Constraints constraints;             // those frozen at their bounds
+  double scatter = 0;                  // sigma [N]
   std::size_t outliers = 0;            // points beyond 4 sigma
   std::vector<FreeParameter> unknown;  // not determined by the data, at their prior
 };
@@ -44,8 +47,9 @@ double predicted(const StaticSetting& setting, const StaticScales& scales,
 std::vector<double> residuals_of(const StaticSetting& setting, const StaticScales& scales,
                                  std::span<const StaticPoint> points);
 
-// Fits the free parameters to the points. `start`: a solution with the same parameters.
-// `tolerance`: see SolverOptions. Throws Refusal if there are too few points.
+// Fits the free parameters to the points. `start`: a solution with the same parameters, whose
+// bounds and frozen parameters are kept. `tolerance`: see SolverOptions. Throws Refusal if there
+// are too few points.
 StaticFit fit_static(const std::vector<FreeParameter>& free_parameters,
                      std::span<const StaticPoint> points, const StaticScales& scales,
                      const StaticFit* start = nullptr, double tolerance = 1e-14);

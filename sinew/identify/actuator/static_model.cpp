@@ -1,5 +1,6 @@
 #include "sinew/identify/actuator/static_model.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -108,6 +109,11 @@ constexpr std::array infos = {
     Info{"toe_tension", "toe.tension", "N"},
 };
 
+// Bounds of these are those of a law that is feasible: a tension that grows with the pressure, a
+// braid that is longer than the muscle, and ends that leave some of the muscle.
+constexpr FreeParameter feasible[] = {thread_length, eff_linear,       end_loss,
+                                      taper_gain,    taper_extra_gain, taper_extra_pressure};
+
 const Info& info(FreeParameter free_parameter) {
   return infos[static_cast<std::size_t>(free_parameter)];
 }
@@ -192,12 +198,14 @@ double& value_of(StaticSetting& setting, FreeParameter free_parameter) {
 Parameter parameter_of(FreeParameter free_parameter, const StaticScales& s) {
   const double l = s.rest_length, f = s.full_scale, p = s.top_pressure;
   const auto make = [&](double start, double low, double high, double scale) {
-    return Parameter{.name = std::string(info(free_parameter).name),
-                     .unit = std::string(info(free_parameter).unit),
-                     .start = start,
-                     .low = low,
-                     .high = high,
-                     .scale = scale};
+    return Parameter{
+        .name = std::string(info(free_parameter).name),
+        .unit = std::string(info(free_parameter).unit),
+        .start = start,
+        .low = low,
+        .high = high,
+        .scale = scale,
+        .may_widen = std::ranges::find(feasible, free_parameter) == std::end(feasible)};
   };
   const double n = likely_turns(s, 1.15 * l);
   switch (free_parameter) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "sinew/identify/contest/bounds.h"
 #include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify {
@@ -74,11 +75,6 @@ double loss_of(const Solution& s, double outlier) {
   return sum;
 }
 
-void start_at(const Solution& solution, FitProblem& problem) {
-  for (std::size_t i = 0; i < problem.parameters.size(); ++i)
-    problem.parameters[i].start = solution.values[i];
-}
-
 // Returns predicted - measured at every row.
 std::vector<double> misses(const Candidate& candidate, const std::vector<double>& measured,
                            std::span<const double> p) {
@@ -95,18 +91,21 @@ std::vector<double> at(const std::vector<double>& values, const Rowset& rows) {
 }
 
 // Returns the residuals of the rows that each split leaves out. A split that leaves out no fitted
-// row needs no fit.
+// row needs no fit. `problem` is that of the whole fit.
 std::vector<double> left_out_residuals(const Candidate& candidate, const Trial& trial,
-                                       const Rowset& rows, const Solution& whole) {
+                                       const Rowset& rows, const FitProblem& problem,
+                                       const Solution& whole) {
   if (candidate.left_out) return candidate.left_out(whole);
   std::vector<double> out;
   for (const Split& split : trial.splits) {
     Solution part = whole;
     if (split.fitted != rows) {
-      FitProblem problem = problem_of(candidate, trial.measured, split.fitted);
-      start_at(whole, problem);
-      problem.options.tolerance = std::max(problem.options.tolerance, 1e-12);
-      part = solution_of(problem, problem.options);
+      FitProblem some = problem_of(candidate, trial.measured, split.fitted);
+      some.parameters = problem.parameters;
+      some.constraints = problem.constraints;
+      start_at(whole.values, some);
+      some.options.tolerance = std::max(some.options.tolerance, 1e-12);
+      part = solution_of(some, some.options);
     }
     const auto left = at(misses(candidate, trial.measured, part.values), split.held_out);
     out.insert(out.end(), left.begin(), left.end());
@@ -122,10 +121,12 @@ Solution solved(const Candidate& candidate, FitProblem& problem) {
     all = solutions_of(candidate, problem);
     best = *std::ranges::min_element(
         all, {}, [&](const Solution& s) { return loss_of(s, problem.options.outlier); });
-    start_at(*best, problem);
+    start_at(best->values, problem);
   }
-  if (!best || candidate.search_steps > 0 || candidate.search_tolerance > problem.options.tolerance)
-    best = solution_of(problem, problem.options);
+  if (!best || candidate.search_steps > 0 ||
+      candidate.search_tolerance > problem.options.tolerance ||
+      std::ranges::any_of(problem.parameters, &Parameter::may_widen))
+    best = least_squares_within(problem);
   if (candidate.finish) candidate.finish(problem, all, *best);
   return std::move(*best);
 }
@@ -143,7 +144,7 @@ Fit fit_of(const Candidate& candidate, const Trial& trial, double full_scale) {
     out.fit = score(found.residuals, full_scale);
     out.residuals = misses(candidate, trial.measured, found.values);
     if (!trial.splits.empty() || candidate.left_out) {
-      const std::vector<double> left = left_out_residuals(candidate, trial, rows, found);
+      const std::vector<double> left = left_out_residuals(candidate, trial, rows, problem, found);
       (trial.cross_validates ? out.cross_validated : out.held_out) = score(left, full_scale);
       if (trial.has_band) out.band = band_of(left, trial.band_where);
       if (trial.shows_left_out) out.residuals.insert(out.residuals.end(), left.begin(), left.end());

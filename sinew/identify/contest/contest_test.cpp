@@ -110,6 +110,35 @@ TEST(Contest, RefusesAndFreezesWithAReason) {
             "how large errors are where nothing was measured, as no row was left out");
 }
 
+// The slope is 2. A guessed bound of 1.5 is widened, and the fit is that without bounds. At 0.5 the
+// wider bound of 1 is too small as well: the slope is frozen there, and the law takes part with one
+// parameter less. A bound towards zero stays.
+TEST(Contest, WidensAGuessedBoundOnceAndThenFreezesTheParameter) {
+  const Line data = line(12);
+  const auto with_slope = [&](double low, double high) {
+    Candidate out = polynomial(data.x, 1);
+    out.parameters[1] = {
+        .name = "b", .unit = "1", .start = low, .low = low, .high = high, .may_widen = true};
+    return out;
+  };
+  Report report = report_of(data);
+  Trial trial{.measured = data.y, .splits = each_row_held_out(12)};
+  trial.cross_validates = true;
+  fit_candidates({polynomial(data.x, 1), with_slope(0, 1.5), with_slope(0, 0.5), with_slope(3, 4)},
+                 trial, report);
+  const auto slope = [&](std::size_t k) { return report.fits[k].parameters[1]; };
+  EXPECT_NEAR(slope(1).value, slope(0).value, 1e-6);
+  EXPECT_TRUE(slope(1).free);
+  EXPECT_EQ(slope(2).value, 1);
+  EXPECT_FALSE(slope(2).free);
+  EXPECT_EQ(slope(2).known, "frozen at its bound");
+  EXPECT_EQ(report.fits[2].not_chosen, "");
+  EXPECT_GT(report.fits[2].cross_validated->rmse, report.fits[1].cross_validated->rmse);
+  EXPECT_EQ(report.fits[3].not_chosen, "b at the bound of its range");
+  conclude(report);
+  EXPECT_LT(report.chosen, 2u);
+}
+
 TEST(Contest, WarnsOfASearchThatHasNotSettled) {
   const Line data = line(12);
   Candidate hasty = polynomial(data.x, 1);

@@ -31,7 +31,8 @@ struct Parameter {
   std::string unit;  // SI
   double start = 0;
   double low = -unbounded, high = unbounded;
-  double scale = 1;  // size of a significant change, > 0
+  double scale = 1;        // size of a significant change, > 0
+  bool may_widen = false;  // a bound of its size is a guess (bounds.h)
 };
 
 // Writes the residuals for the parameters p; their number is constant. May return false if the

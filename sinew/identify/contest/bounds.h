@@ -1,0 +1,23 @@
+// identify/contest/bounds.h - parameters that end at a bound which is only a guess of their size.
+//
+//   high > 0   ->   2 high           low < 0   ->   2 low
+//
+// Such a bound is widened once where the optimum is beyond it. Where the optimum is beyond the
+// wider bound too, the parameter is frozen there and the others are fitted again: the data
+// determine that it is large and not how large, and the law competes with one parameter less. A
+// bound that limits the value towards zero stays: it is a matter of sign, of geometry, or the limit
+// at which the law becomes a simpler one.
+#pragma once
+
+#include "sinew/identify/contest/profile.h"
+
+namespace sinew::identify {
+
+// Minimises the residuals of the problem. Writes widened bounds (Parameter::may_widen) and frozen
+// parameters into it, so that cross-validation and profiles search the same ranges.
+Solution least_squares_within(FitProblem& problem);
+
+// Moves the starts of the problem's parameters to these values, within their bounds.
+void start_at(std::span<const double> values, FitProblem& problem);
+
+}  // namespace sinew::identify
