@@ -365,8 +365,7 @@ void add_film(CLI::App& app, Action& action) {
                  "\"5 s\"\n  sinew film runs/walk-test-1/1 -o walk.mp4 --speed 0.25\n  sinew film "
                  "runs/elbow/1 measured -o both.mp4 --align correlation --clock fit");
   FilmOptions& options = runs(sub, action, make);
-  sub.add_option("RUN", options.runs,
-                 "run folders or log files; all but the first as ghosts")
+  sub.add_option("RUN", options.runs, "run folders or log files; all but the first as ghosts")
       ->required()
       ->expected(1, most_runs);
   sub.add_option("-o,--output", options.out, "FILE: .gif, .mp4 or .webm file to write")->required();
@@ -374,7 +373,8 @@ void add_film(CLI::App& app, Action& action) {
   sub.add_option("--to", options.to, "TIME: end in the run, \"5 s\"; default: its end");
   sub.add_option("--speed", options.speed, "run seconds per film second")->capture_default_str();
   sub.add_option("--width", options.width, "width of the picture [pixels]")->capture_default_str();
-  sub.add_option("--height", options.height, "height of the picture [pixels]")->capture_default_str();
+  sub.add_option("--height", options.height, "height of the picture [pixels]")
+      ->capture_default_str();
   sub.add_option("--fps", options.fps, "frames per second")->capture_default_str();
   sub.add_flag("--dark", options.dark, "draw light on dark");
   sub.add_flag("--still", options.still, "keep the camera still and show the whole way");
