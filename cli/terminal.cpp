@@ -75,8 +75,6 @@ std::size_t width_of_output() {
   return size.ws_col;
 }
 
-std::string in_green(std::string_view text) { return in_color(STDOUT_FILENO, text, "32"); }
-
 bool output_has_color() { return takes_color(STDOUT_FILENO); }
 
 std::string in_red(std::string_view text) { return in_color(STDOUT_FILENO, text, "31"); }

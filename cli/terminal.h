@@ -40,8 +40,7 @@ class Messages {
 // Returns the letters in a line of stdout; 0 where it is no terminal.
 std::size_t width_of_output();
 
-// Return the text in green or red; plain where stdout takes no color.
-std::string in_green(std::string_view text);
+// Returns the text in red; plain where stdout takes no color.
 std::string in_red(std::string_view text);
 bool output_has_color();
 

@@ -82,9 +82,9 @@ void check_share(Visitor& v, const Effectiveness& e) {
   for (const double gauge : {e.valid_from, e.valid_to}) {
     const double share = effectiveness(e, gauge, units::atmosphere);
     if (share >= least && share <= most) continue;
-    units::report_conflict(v, "polynomial",
-                           "a share of " + std::to_string(share) + " where it is valid",
-                           "-0.5 to 3: a share of the ideal tension", "other units");
+    units::report_conflict(
+        v, "polynomial", "a share of " + std::to_string(share) + " where it is valid",
+        "-0.5 to 3: a share of the ideal tension", "the units of the coefficients");
     return;
   }
 }

@@ -141,7 +141,7 @@ std::vector<Warning> implausible_sensors(const signals::Table& table, const robo
   std::size_t others = 0;
   for (const robot::Sensor& s : robot.sensors) {
     append(out, counted(table, "/sensor/" + s.name + "/rejected", s.name + ": ", "reading was",
-                        "readings were", " not believed; the last good ones stood"));
+                        "readings were", " not accepted; the last good ones were used"));
     auto one = counted(table, "/sensor/" + s.name + "/frozen", s.name + ": ", "reading", "readings",
                        " came again while its muscles were driven");
     if (one.empty()) continue;

@@ -100,7 +100,7 @@ TEST(Warnings, SpeakOfOneAndOfMany) {
   Log log(10);
   log.scalar("/sensor/hip_angle/rejected", constant(1)).scalar("/low_level/gaps", constant(2));
   EXPECT_EQ(implausible_sensors(log.table, m.robot)[0].text,
-            "hip_angle: 1 reading was not believed; the last good ones stood");
+            "hip_angle: 1 reading was not accepted; the last good ones were used");
   EXPECT_EQ(rejected_commands(log.table)[0].text, "2 ticks came later than announced");
 }
 

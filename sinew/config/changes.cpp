@@ -125,10 +125,11 @@ const KeyChange* removed_key(std::string_view path, const Changes& changes) {
   return nullptr;
 }
 
-std::string in_words(const KeyChange& change) {
+std::string in_words(const KeyChange& change, std::string_view path) {
   const std::string since = fmt::format("since sinew.{}/{}", change.kind, change.format);
   if (change.to.empty()) return fmt::format("{}; it is gone {}", change.why, since);
-  return fmt::format("{}, which replaces it {}; sinew migrate rewrites it", change.to, since);
+  const std::string_view table = path.substr(0, path.rfind('.') + 1);
+  return fmt::format("{}{}, which replaces it {}", table, change.to, since);
 }
 
 std::string_view likely_kind(const Node& root) {

@@ -64,8 +64,9 @@ Node parse_file(const std::string& path, const Changes& changes);
 // ("actuator.bpa.braid.turns", "reported[0].value"); nullptr if none did.
 const KeyChange* removed_key(std::string_view path, const Changes& changes);
 
-// Returns "opening_delay, in its place since sinew.robot/2", for Problem::try_this.
-std::string in_words(const KeyChange& change);
+// Returns "muscle.a.opening_delay, which replaces it since sinew.robot/2", for Problem::try_this.
+// `path` is the key that was found.
+std::string in_words(const KeyChange& change, std::string_view path);
 
 // Returns the likely kind of a file without a format, found from keys that only this kind has;
 // empty if no such key is found.

@@ -346,7 +346,7 @@ void Reader::refuse_unused(const Node& child, const std::string& path,
   const std::string expected =
       known.empty() || known.size() > 12 ? "a key that is read here" : either(known);
   if (const KeyChange* removed = removed_key(path, *options_.changes))
-    return add_problem(child, path, "a key that is gone", expected, in_words(*removed));
+    return add_problem(child, path, "a key that is gone", expected, in_words(*removed, path));
   const std::string_view near = closest(child.key, known);
   add_problem(child, path, "an unknown key", expected,
               near.empty() ? "" : fmt::format("{}; did you mean that?", near));
@@ -505,7 +505,7 @@ void Reader::read_range(const Field& field, Entry& entry, double value) {
   warnings_.push_back({entry.origin.where, entry.origin.path, shown(*entry.value),
                        fmt::format("a value in its own range {} to {}", entry.origin.range[0],
                                    entry.origin.range[1]),
-                       "a wider range, or another fit"});
+                       "a wider range, or check the fit"});
 }
 
 void Reader::check_uncertainty(const Field& field, const Entry& entry) {

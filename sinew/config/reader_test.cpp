@@ -314,7 +314,7 @@ TEST(Reader, ATablesRangeCoversWhatHasItsUnit) {
   ASSERT_EQ(r.reader.warnings().size(), 1u);
   EXPECT_EQ(to_text(r.reader.warnings()[0]),
             "a.toml:3:1: length: found \"3 in\"; expected a value in its own range 1 in to 2 in; "
-            "try a wider range, or another fit");
+            "try a wider range, or check the fit");
 }
 
 TEST(Reader, ASourceDoesNotReachIntoAnotherFile) {

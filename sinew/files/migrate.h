@@ -2,8 +2,9 @@
 //
 //   files::Migration m = files::migrate("leg.toml");   // leg.toml is new, leg.toml.bak the old one
 //
-// Comments and layout are kept (config/migrate.h). Nothing is overwritten: the old file is renamed,
-// or the new one is written to another folder; a name that exists is refused.
+// Comments and layout are kept (config/migrate.h). A copy of the old file, FILE.bak, is
+// written before the file is replaced, or the new one is written to another folder; a name that
+// exists is refused.
 #pragma once
 
 #include <string>

@@ -43,8 +43,8 @@ class RunsPages {
 
   // Returns the page at a path: "/" is the list if list_first() was called, else the page of the
   // first run; "/runs" is the list, "/run/3" the page of run 3, "/picture/3" a drawing of its
-  // machine, "/compare/3,5" the comparison of two runs. A run that cannot be read gives status 500
-  // with the error's message.
+  // machine, "/compare/3,5" the comparison of two to eight runs. A run that cannot be read gives
+  // status 500 with the error's message.
   Reply get(std::string_view path);
   void list_first() { list_first_ = true; }
 

@@ -710,14 +710,13 @@ class Assembler {
                         config::listed(file.unused, 10)));
       if (file.left_out > 0)
         out_.notes.push_back(
-            fmt::format("{}: {} of {} values left out: not finite, or before time 0", file.file,
-                        file.left_out, file.left_out + file.values));
+            fmt::format("{}: {} of {} values left out: empty, not finite, or before time 0",
+                        file.file, file.left_out, file.left_out + file.values));
     }
     if (sampled_edges_)
       out_.notes.push_back(
-          "valves: a table has their edges to one of its rows; what they delivered, how often "
-          "they "
-          "switched and their energy follow these and are no measurements");
+          "valves: a table gives their edges only to within one row; duty, switching and energy "
+          "are computed from these, not measured");
   }
 
   const std::vector<Recorded>& files_;

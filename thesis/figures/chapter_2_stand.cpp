@@ -158,9 +158,10 @@ Exhibit figure_2_8(const std::vector<Loop>& loops) {
   return {
       {.name = "2-8",
        .title = "Force over length with the air shut in",
-       .caption = "0 to 15 lb and back in steps of 1 lb at four nominal pressures. The thesis's "
-                  "measurements are lost: our stand replaces them. 45 and 75 psi are "
-                  "guesses, 60 and 90 psi are named in 2.3.",
+       .caption =
+           "0 to 15 lb and back in steps of 1 lb at four nominal pressures. The thesis's "
+           "measurements are lost: a simulation of our stand replaces them. 45 and 75 psi are "
+           "guesses, 60 and 90 psi are named in 2.3.",
        .plots = {{.x = {"length", "in"}, .y = {"force", "lbf"}, .curves = curves}}},
       {Section("2.3").number(
            put_in, "Force is no straight line over length", "",

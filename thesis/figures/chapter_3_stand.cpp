@@ -125,7 +125,7 @@ void share_axis(Exhibits& out) {
 }
 
 constexpr const char* lost =
-    "The thesis's measurement is lost: our stand replaces it, the model with other "
+    "The thesis's measurement is lost: a simulation of our stand replaces it, the model with other "
     "numbers where 3.4 names what it lacks, through a potentiometer.";
 constexpr const char* simulation = "The simulation of appendix A with steps that have converged.";
 

@@ -19,8 +19,9 @@ report::Gallery gallery(const Sources& from, std::atomic<std::int64_t>& done) {
   report::Gallery out{
       .title = "The figures of Colbrunn (2000)",
       .lead =
-          "Every plot of the thesis that can be computed, numbered as there, with what its "
-          "text has. Curves are computed by the thesis's laws or by our simulation. "
+          "Every plot of the thesis that can be computed, numbered as there, with the statements "
+          "of "
+          "its text. Curves are computed by the thesis's laws or by our simulation. "
           "What was measured is lost: where a synthetic curve replaces it, it is our "
           "own stand's and is marked so. Each verdict is computed from the curves as they are "
           "drawn, or from the run's summary, within a band that follows from the wording. Its "

@@ -129,7 +129,7 @@ class Summary {
 // Numbers that depend on the computer of the run, and warnings of events that are not in the log.
 struct Host {
   std::vector<std::pair<std::string, double>> numbers;
-  std::string board;  // board that ran the controller; empty for a simulation
+  std::string board;  // device at the port; empty for a simulation
   std::vector<std::string> warnings;
 };
 

@@ -218,7 +218,7 @@ void control_fields(Visitor& v, Plan& plan) {
             .min = 1e-3,
             .max = 1,
             .optional = true,
-            .doc = "of the high level, a multiple of the low level's"},
+            .doc = "period of the gait controller, a multiple of the joint controller's"},
            plan.high_level_period);
   v.group({.name = "stiffness", .doc = "K_des [58], until a phase sets another"}, [&](auto& g) {
     for (JointPlan& joint : plan.joints)

@@ -174,7 +174,7 @@ struct Heartbeat {
   static constexpr Type type = Type::heartbeat;
 };
 // Switches the byte protocol of the thesis's computers on or off.
-struct ThesisWords {  // thesis_words.h
+struct ThesisWords {  // thesis_bytes.h
   static constexpr Type type = Type::thesis_words;
   bool on = false;
 };

@@ -273,7 +273,7 @@ TEST(WirePage, ExamplesAreFramesToTheByte) {
        frame_of(Enable{.joints = 5, .enabled = true}, {1, 33})},
       {"shut_down, to every board, sequence 255", frame_of(ShutDown{}, {every_board, 255})},
       {"answer: configuration refused, from board 1, sequence 7", frame_of(refusal(), {1, 7})},
-      {"readings, two channels, the second not believed, from board 1, sequence 9",
+      {"readings, two channels, the second not accepted, from board 1, sequence 9",
        frame_of(two_channels(), {1, 9})},
   };
   const std::map<std::string, Bytes> found = examples_of_page();

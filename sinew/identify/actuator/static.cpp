@@ -338,7 +338,7 @@ Fit try_model(const StaticModel& model, const StaticSplit& s, const StaticScales
           .source = std::string(model.source)};
   try {
     if (model.name == "effectiveness" && !scales.braid)
-      throw Refusal("braid", "no geometry", "a braid that is known: here only turns are", "");
+      throw Refusal("braid", "no geometry", "a braid that is known: here only its turns are", "");
     const StaticLawFitter tried(model, scales, s.fitted);
     const StaticFit fit = tried.fit(s.fitted);
     refuse_falling(fit, scales);
@@ -593,7 +593,7 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   report.full_scale = scales_of(points, options.atmosphere, options.braid).full_scale;
   out.scales = scales_of(s.fitted, options.atmosphere, options.braid);
   if (!(out.scales.full_scale > 0))
-    throw Refusal("force", "no force above zero among what is to be fitted", "a muscle that pulls",
+    throw Refusal("forces", "none above zero among what is to be fitted", "a muscle that pulls",
                   "the sign of the force");
 
   std::vector<Best> found;

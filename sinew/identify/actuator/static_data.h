@@ -21,9 +21,9 @@ enum class Branch { vent = -1, unknown = 0, fill = 1 };
 
 // A reading at rest.
 struct StaticPoint {
-  double length = 0;       // gauge, zero subtracted [Pa]
-  double pressure = 0;     // zero subtracted [N]
-  double force = 0;        // rest length of its muscle [m]; 0: unknown
+  double length = 0;       // [m]
+  double pressure = 0;     // gauge, zero subtracted [Pa]
+  double force = 0;        // zero subtracted [N]
   double rest_length = 0;  // rest length of its muscle [m]; 0: unknown
   Branch branch = Branch::unknown;
   bool fitted = true;  // false: held out

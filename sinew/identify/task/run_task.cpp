@@ -151,7 +151,7 @@ struct RecordedMachine {
           driven.duration(), of));
     if (!driven.coarse().empty())
       report.warnings.push_back(
-          fmt::format("the recording has when {} valves switch to one of its rows only, and "
+          fmt::format("the recording gives the edges of {} valves only to within one row, and "
                       "pulses are shorter: their duties, or edges at their own times, are needed",
                       driven.coarse().size()));
     if (!driven.rebuilt().empty())

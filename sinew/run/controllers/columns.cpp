@@ -142,7 +142,7 @@ void supervision_columns(const experiment::Experiment& e, Columns& out) {
   if (!is_supervised_closely(e)) return;
   for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
     const std::string at = "/sensor/" + e.robot.sensors[s].name;
-    out.scalar(at + "/rejected", "1", "readings so far that were not believed",
+    out.scalar(at + "/rejected", "1", "readings so far that were not accepted",
                [s](const Snapshot& m) { return m.controller->supervised(s).rejected; });
     out.scalar(at + "/frozen", "1", "readings so far that repeated themselves while driven",
                [s](const Snapshot& m) { return m.controller->supervised(s).frozen; });

@@ -81,7 +81,7 @@ void add_sensors(const experiment::Experiment& e, const run::Outcome& outcome,
     if (outcome.table.find("/sensor/" + name + "/rejected")) continue;
     const control::SensorStatistics& sensor = outcome.supervised.sensor[s];
     if (sensor.rejected > 0)
-      out.push_back(fmt::format("{}: {} not believed; the last good ones stood", name,
+      out.push_back(fmt::format("{}: {} not accepted; the last good ones were used", name,
                                 counted(sensor.rejected, "reading was", "readings were")));
     if (sensor.frozen == 0) continue;
     first.empty() ? void(first = name) : void(++others);

@@ -105,7 +105,7 @@ std::string verdicts_text(const analysis::Summary& summary, const analysis::Mach
   std::string out = summary.title;
   if (!summary.reproduces.empty()) out += fmt::format(" ({})", summary.reproduces);
   if (std::ranges::any_of(machine.reported, &analysis::Reported::changed))
-    out += ", changed: what is reported is of the experiment without that";
+    out += ", changed: the reported values are of the unchanged experiment";
   out += "\n";
 
   const std::vector<analysis::Verdict> verdicts =

@@ -45,7 +45,7 @@ auto each_board(JointController& joint_controller) noexcept {
 //         take(conversion, reading, t), next_event(t), missed(t), shut_down(t):
 //         control::Supervisor, control::JointController alone; or Boards, whose each() returns
 //         boards with edges(t), due(t) and take()
-// GaitController   update(seen, t) -> Command, finished()
+// GaitController   update(state, t) -> Command, finished()
 // Clock   wait_until(t) -> false if late, or nothing
 // Watch   command(t), edge(e), sample(t), next(t): a recorder, which changes nothing. It may have
 //         stopped(): true ends the loop

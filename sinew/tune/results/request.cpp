@@ -184,9 +184,19 @@ Difference difference(const std::string& first, const std::string& second) {
   }
 }
 
+// Returns the text without the line with the format of its experiment. A newer format may name keys
+// otherwise, and changes no value.
+std::string without_format(const std::string& text) {
+  std::string out;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);)
+    if (!line.starts_with("format = ")) out += line + "\n";
+  return out;
+}
+
 void require_same(const std::filesystem::path& file, const StudyRequest& held,
                   const StudyRequest& request) {
-  if (held.text == request.text) return;
+  if (without_format(held.text) == without_format(request.text)) return;
   const Difference d = difference(held.text, request.text);
   if (d.first.starts_with("sinew = ") && d.second.starts_with("sinew = ")) refuse_version(file, d);
   run::refuse(file, "another study, with " + config::in_quotes(d.first),
