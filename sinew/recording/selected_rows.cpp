@@ -42,10 +42,7 @@ SelectedRows::SelectedRows(const Grid& grid, const Source& source, RowClock& clo
       body_(grid) {
   check_columns(grid, "where", source.where, problems);
   for (const auto& [name, values] : source.where)
-    if (const auto column = grid.column_called(name)) {
-      where_.emplace_back(*column, values);
-      if (std::ranges::count(clock.columns(), *column) == 0) columns_.push_back(*column);
-    }
+    if (const auto column = grid.column_called(name)) where_.emplace_back(*column, values);
 }
 
 bool SelectedRows::next() {
@@ -74,9 +71,14 @@ bool SelectedRows::fills(const Row& above, const Row& row) const {
   if (clock_.kind() == RowClock::Kind::none || clock_.kind() == RowClock::Kind::rate) return false;
   for (const std::size_t i : clock_.columns())
     if (text(above, i) != text(row, i) || is_missing(text(row, i))) return false;
-  return std::ranges::all_of(columns_, [&](std::size_t i) {
+  const auto one_is_missing = [&](std::size_t i) {
     return is_missing(text(above, i)) || is_missing(text(row, i));
-  });
+  };
+  return std::ranges::all_of(columns_, one_is_missing) &&
+         std::ranges::all_of(where_, [&](const auto& condition) {
+           const std::size_t i = condition.first;
+           return one_is_missing(i) || text(above, i) == text(row, i);
+         });
 }
 
 bool SelectedRows::meets_conditions(const Row& row) const {

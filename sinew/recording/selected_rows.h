@@ -6,7 +6,7 @@
 //   rows.finish(notes);
 //
 // Rows of equal time that fill each other's empty cells are merged: the logger wrote a line for
-// each of its channels.
+// each of its channels. Cells of a condition may also be equal.
 #pragma once
 
 #include <algorithm>

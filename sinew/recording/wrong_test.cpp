@@ -224,6 +224,13 @@ TEST(Wrong, RowsOfOneTimeThatFillEachOthersCellsAreOneRow) {
   ASSERT_EQ(m.notes.size(), 1u);
   EXPECT_EQ(m.notes[0],
             "2 rows have the time of the row above and values of other columns: merged with it");
+  // A column of a condition is equal in both rows, or missing in one; other rows are left out.
+  const Measured some = parse_measured(
+      "time [s],pressure [bar gauge],force [N],state\n"
+      "0,1,,ok\n0,,10,ok\n1,2,,ok\n1,,11,\n2,3,,bad\n2,,12,bad\n",
+      {.path = "lab.csv", .where = {{"state", "ok"}}}, specs);
+  EXPECT_EQ(some["pressure"], (std::vector<double>{1e5, 2e5}));
+  EXPECT_EQ(some["force"], (std::vector<double>{10, 11}));
   const Measured stamps = parse_measured(
       "date,time,pressure [bar gauge],force [N]\n2026-11-27,10:00:00,1,\n2026-11-27,10:00:00,,10\n"
       "2026-11-27,10:00:01,2,11\n",

@@ -33,22 +33,24 @@ void start_at(std::span<const double> values, FitProblem& problem) {
 
 Solution least_squares_within(FitProblem& problem) {
   Solution found = solved(problem);
+  std::vector<const double*> widened;
   std::vector<std::size_t> frozen;
-  for (const bool widens : {true, false}) {
-    bool is_changed = false;
+  for (bool is_changed = true; is_changed;) {
+    is_changed = false;
     for (std::size_t i = 0; i < problem.parameters.size(); ++i) {
       Parameter& p = problem.parameters[i];
       double* bound = guessed_bound(found.estimates[i], p);
-      if (!bound) continue;
+      if (!bound || std::ranges::count(frozen, i) > 0) continue;
       is_changed = true;
-      if (widens) {
+      if (std::ranges::count(widened, bound) == 0) {
         *bound *= 2;
+        widened.push_back(bound);
         continue;
       }
       problem.constraints = problem.constraints.with_frozen(p.name, *bound);
       frozen.push_back(i);
     }
-    if (!is_changed) return found;
+    if (!is_changed) break;
     start_at(found.values, problem);
     found = solved(problem);
   }

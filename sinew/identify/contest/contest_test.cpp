@@ -139,6 +139,21 @@ TEST(Contest, WidensAGuessedBoundOnceAndThenFreezesTheParameter) {
   EXPECT_LT(report.chosen, 2u);
 }
 
+// Each bound is widened once by itself, in whatever order the parameters come to theirs.
+TEST(Contest, WidensEachBoundOnce) {
+  const Line data = line(12);
+  Candidate both = polynomial(data.x, 1);
+  both.parameters[0] = {.name = "a", .unit = "1", .high = 0.7, .may_widen = true};
+  both.parameters[1] = {.name = "b", .unit = "1", .high = 1.5, .may_widen = true};
+  Report report = report_of(data);
+  fit_candidates({polynomial(data.x, 1), both}, {.measured = data.y}, report);
+  for (const std::size_t i : {0u, 1u}) {
+    const Estimate &free = report.fits[0].parameters[i], &found = report.fits[1].parameters[i];
+    EXPECT_NEAR(found.value, free.value, 1e-6) << i;
+    EXPECT_TRUE(found.free) << i;
+  }
+}
+
 TEST(Contest, WarnsOfASearchThatHasNotSettled) {
   const Line data = line(12);
   Candidate hasty = polynomial(data.x, 1);

@@ -184,20 +184,21 @@ Difference difference(const std::string& first, const std::string& second) {
   }
 }
 
-// Returns the text without the line with the format of its experiment. A newer format may name keys
-// otherwise, and changes no value.
+// Returns the text without the formats of its experiments: a newer format alone changes no value.
+// A key that it renames still makes another study.
 std::string without_format(const std::string& text) {
   std::string out;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);)
-    if (!line.starts_with("format = ")) out += line + "\n";
+    if (!line.starts_with("format = \"sinew.experiment/")) out += line + "\n";
   return out;
 }
 
 void require_same(const std::filesystem::path& file, const StudyRequest& held,
                   const StudyRequest& request) {
-  if (without_format(held.text) == without_format(request.text)) return;
-  const Difference d = difference(held.text, request.text);
+  const std::string old_text = without_format(held.text), new_text = without_format(request.text);
+  if (old_text == new_text) return;
+  const Difference d = difference(old_text, new_text);
   if (d.first.starts_with("sinew = ") && d.second.starts_with("sinew = ")) refuse_version(file, d);
   run::refuse(file, "another study, with " + config::in_quotes(d.first),
               config::in_quotes(d.second) + ", as now requested", "another name");
