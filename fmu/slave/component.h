@@ -107,30 +107,36 @@ struct Calls {
     return count == 0 ? Status::ok : refuse(c, why, function);
   }
 
+  // Turns the log of the importer on or off.
   static Status set_logging(void* c, bool on, const char* function = __builtin_FUNCTION()) {
     return call(c, function, [&](HeldInstance& s) { s.logging = on; });
   }
+  // Sets the start of the run [s], and its end if one is defined.
   static Status set_start(void* c, double start, bool stop_defined, double stop,
                           const char* function = __builtin_FUNCTION()) {
     return call(c, function, [&](HeldInstance& s) {
       s.instance.set_start(start, stop_defined ? std::optional(stop) : std::nullopt);
     });
   }
+  // Begins the phase in which start values are set.
   static Status enter_initialization(void* c, const char* function = __builtin_FUNCTION()) {
     return call(c, function, [](HeldInstance& s) { s.instance.enter_initialization(); });
   }
+  // Ends that phase; the model stands at its start.
   static Status exit_initialization(void* c, const char* function = __builtin_FUNCTION()) {
     return call(c, function, [](HeldInstance& s) {
       s.instance.exit_initialization();
       s.log(Status::ok, "the model has begun");
     });
   }
+  // Ends the run.
   static Status terminate(void* c, const char* function = __builtin_FUNCTION()) {
     return call(c, function, [](HeldInstance& s) {
       s.instance.terminate();
       s.log(Status::ok, "the run is terminated");
     });
   }
+  // Goes back to before the initialization.
   static Status reset(void* c, const char* function = __builtin_FUNCTION()) {
     return call(c, function, [](HeldInstance& s) { s.instance.reset(); });
   }
@@ -180,12 +186,15 @@ struct Calls {
                : logged(held, short_of, function, "the model has come to its end within the step");
   }
 
+  // Saves the model; the importer owns `*state` until it frees it.
   static Status get_state(void* c, void** state, const char* function = __builtin_FUNCTION()) {
     return call(c, function, [&](HeldInstance& s) { hand_over(state, s.instance.save()); });
   }
+  // Restores the model from a saved state.
   static Status set_state(void* c, const void* state, const char* function = __builtin_FUNCTION()) {
     return call(c, function, [&](HeldInstance& s) { s.instance.restore(bytes_of(state)); });
   }
+  // Frees a saved state; null is allowed.
   static Status free(void* c, void** state, const char* function = __builtin_FUNCTION()) {
     return call(c, function, [&](HeldInstance&) {
       if (!state) return;
@@ -193,6 +202,7 @@ struct Calls {
       *state = nullptr;
     });
   }
+  // Writes the length of a saved state [bytes].
   static Status state_size(void* c, const void* state, std::size_t* size,
                            const char* function = __builtin_FUNCTION()) {
     return call(c, function, [&](HeldInstance&) {
@@ -200,6 +210,7 @@ struct Calls {
       *size = bytes_of(state).size();
     });
   }
+  // Copies a saved state into `size` bytes at `out`.
   static Status serialize(void* c, const void* state, void* out, std::size_t size,
                           const char* function = __builtin_FUNCTION()) {
     return call(c, function, [&](HeldInstance&) {
@@ -210,6 +221,7 @@ struct Calls {
       std::memcpy(out, bytes.data(), bytes.size());
     });
   }
+  // Makes a saved state from bytes.
   static Status deserialize(void* c, const void* bytes, std::size_t size, void** state,
                             const char* function = __builtin_FUNCTION()) {
     return call(c, function, [&](HeldInstance&) {

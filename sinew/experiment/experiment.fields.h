@@ -178,12 +178,14 @@ void fields(Visitor& v, PulseTable& p) {
             p.opening);
 }
 
+// Describes the air of the machine.
 template <class Visitor>
 void air_of_machine(Visitor& v, Experiment& e) {
   v.group({.name = "air", .doc = "atmosphere and supply"},
           [&](auto& g) { gas::fields(g, e.air, e.supply); });
 }
 
+// Describes the pulses of the low level.
 template <class Visitor>
 void pulses_of_machine(Visitor& v, Experiment& e) {
   v.group({.name = "pulses",

@@ -72,6 +72,7 @@ struct RowTime {
 // and times of day.
 class RowClock {
  public:
+  // Source of the times: nothing, a rate, numbers of a column, or dates with times of day.
   enum class Kind { none, rate, numbers, instants };
 
   // Makes a clock without times.
@@ -87,6 +88,7 @@ class RowClock {
   // Forgets the rows before the next one.
   void restart() { unwrap_ = {}; }
 
+  // Returns the source of the times.
   Kind kind() const { return kind_; }
   double period() const { return period_; }  // between two rows [s]; 0: no rate
   // Return the dates and times of day, and the seconds in two columns, if the clock has them.

@@ -60,8 +60,10 @@ ParameterFile file_with(std::string text);
 // Returns a robot's file with these tables, over the robot at `base` if it is not empty.
 ParameterFile part_of_robot(config::Node tables, std::string base);
 
+// Lines for stderr.
 struct Remarks {
-  std::vector<std::string> notes, warnings;
+  std::vector<std::string> notes;     // what was done with the data
+  std::vector<std::string> warnings;  // what may be wrong
 };
 
 // Result of any method. A method adds its own values, which `add_text` prints.
@@ -108,6 +110,7 @@ struct FoundBy : Found {
   Result result;
 
   FoundBy() = default;
+  // Takes report, remarks and JSON from the result of the method.
   explicit FoundBy(Result found) : result(std::move(found)) {
     reports = {result.report};
     remarks = {result.report.notes, result.report.warnings};

@@ -28,13 +28,15 @@ namespace sinew::identify {
 
 // --- results ---
 
+// Result of `geometry`; its file: the actuator's.
 struct GeometryFound : Found {
-  actuator::Braid braid;
+  actuator::Braid braid;  // as it was computed
 };
 
+// Result of `sensor`; its file: the sensors, or the robot's.
 struct SensorFound : Found {
-  Calibration calibration;
-  std::string display;  // original unit of the known values
+  Calibration calibration;  // scale and offset of each sensor
+  std::string display;      // original unit of the known values
 };
 
 // Return the scale for a sensitivity as in a robot's file, its uncertainty and its SI unit:
