@@ -1,5 +1,5 @@
-// firmware/host_pipes.h - the two pipes between an emulated program and its host, with the records
-// of sinew/control/board/lock_step.h. Output is buffered until send().
+// firmware/host_pipes.h - the two pipes between an emulated program and its host. They carry
+// records as sinew/control/board/lock_step.h defines them. Output is buffered until send().
 #pragma once
 
 #include <array>

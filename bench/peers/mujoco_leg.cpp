@@ -59,8 +59,8 @@ std::string contact(double friction) {
   return fmt::format(R"(condim="3" friction="{} 0 0" solref="{} 1")", friction, settling);
 }
 
-// Returns the leg's numbers as MJCF text: x forward, z up; angles from x to z, that of the knee
-// from the femur. `step` [s].
+// Returns the leg's numbers as MJCF text, with time step `step` [s]: x forward, z up; angles from x
+// to z, the knee's measured from the femur.
 std::string mjcf(const plant::Setup& setup, double step, Integrator integrator) {
   const robot::Robot& r = setup.robot;
   const robot::Link &femur = r.links.at(0), &tibia = r.links.at(1);

@@ -23,7 +23,7 @@ using Work = std::function<double()>;
 struct Pair {
   Work ours, theirs;
   Clock clock = Clock::processor;
-  std::string label;                      // what is compared
+  std::string label;                      // name of the comparison
   std::map<std::string, double> figures;  // counters: errors of both sides, with their units
   std::function<void()> before;           // called before both works, not timed; may be empty
 };

@@ -22,7 +22,8 @@ using Sources = std::vector<identify::Source>;
 // Result of any method, and the tables that it was found in.
 struct Identified {
   std::shared_ptr<const identify::Found> found;
-  std::shared_ptr<const identify::ValveFound> valve = nullptr;  // the same, of a valve
+  std::shared_ptr<const identify::ValveFound> valve =
+      nullptr;  // `found` as a valve's result; else null
   Sources sources;
 };
 

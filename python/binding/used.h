@@ -47,8 +47,8 @@ class Guarded {
   std::atomic<bool> used_{false};
 };
 
-// Adds save(), restore() and copies to a class of guarded objects; `other` completes "for bytes
-// that are no save, or of".
+// Adds save(), restore() and copies to a class of guarded objects. `other` names, in a docstring,
+// the object whose save is refused.
 template <class Class, class Save, class Restore, class Copy>
 void bind_states(Class& c, Save save, Restore restore, Copy copy, const std::string& other) {
   c.def("save", save, "Returns everything that the future depends on, as bytes.")

@@ -29,8 +29,8 @@ struct Candidate {
   std::vector<Parameter> parameters;
   Prediction predict;
   std::vector<std::vector<double>> starts;  // the best solution is used; empty: Parameter::start
-  double search_tolerance = 1e-6;  // of the solutions from the starts; the best is then refined
-  int search_steps = 0;            // of each of them, at most; 0: as in the options
+  double search_tolerance = 1e-6;  // tolerance of the searches from the starts; the best is refined
+  int search_steps = 0;            // largest number of steps of each search; 0: as in the options
   SolverOptions options;
   Constraints constraints;
   std::vector<std::string_view> may_be_at_bound;  // parameters with a meaning there

@@ -51,7 +51,7 @@ struct ParameterFile {
   // Returns the text as it would be written at `out`. Throws config::Error, or Refusal if the data
   // do not support a file.
   std::function<std::string(const std::string& out)> at;
-  std::string suffix = "";  // of its name, after that of the method's own file: "-225mm"
+  std::string suffix = "";  // end of its name, added to that of the own file: "-225mm"
 };
 
 // Returns a file with this text.
@@ -62,15 +62,15 @@ ParameterFile part_of_robot(config::Node tables, std::string base);
 
 // Lines for stderr.
 struct Remarks {
-  std::vector<std::string> notes;     // what was done with the data
-  std::vector<std::string> warnings;  // what may be wrong
+  std::vector<std::string> notes;     // changes made to the data
+  std::vector<std::string> warnings;  // possible faults
 };
 
 // Result of any method. A method adds its own values, which `add_text` prints.
 struct Found {
   std::vector<Report> reports;       // for a page, the method's own first; empty: it has no law
   bool is_report_text = true;        // the text begins with the first report
-  std::string title;                 // of the page; empty: that of the first report
+  std::string title;                 // title of the page; empty: the first report's
   Remarks remarks;                   // for stderr
   Json json = Json::object();        // `--json`: SI, with the unit in the key; null if unknown
   std::vector<ParameterFile> files;  // the method's own first; empty: it makes none

@@ -30,7 +30,7 @@ namespace sinew::identify {
 
 // Result of `geometry`; its file: the actuator's.
 struct GeometryFound : Found {
-  actuator::Braid braid;  // as it was computed
+  actuator::Braid braid;  // computed from the measurements
 };
 
 // Result of `sensor`; its file: the sensors, or the robot's.
@@ -58,11 +58,11 @@ using StaticFound = FoundBy<StaticResult>;    // its files: one of each muscle, 
 // Returns whether the text is a range of times, "7 s..14 s", and not a file's name.
 bool is_time_range(std::string_view text);
 
-// Its file is refused for delays without a flow, which a simulation could not use, and for values
-// that the data do not support.
+// Result of a method of valves. Its file is refused for delays without a flow, which a simulation
+// could not use, and for values without support in the data.
 struct ValveFound : FoundBy<ValveResult> {
   using FoundBy::FoundBy;
-  std::string frequency;  // of the pulses, as it was set; empty: 100 Hz
+  std::string frequency;  // frequency of the pulses, as it was set; empty: 100 Hz
 };
 
 // predict.dat, with compensated valve delays.
