@@ -309,20 +309,24 @@ void apply_set(Node& root, std::string_view set) {
 }
 
 Node compose(const std::string& path, const std::vector<std::string>& sets) {
-  Node root = load(path);
+  return Composer().compose(path, sets);
+}
+
+Node Composer::compose(const std::string& path, const std::vector<std::string>& sets) {
   // Another robot must be loaded before keys in its tables can be set.
-  const auto names_robot = [](std::string_view set) {
-    return trimmed(set.substr(0, set.find('='))) == "robot";
-  };
-  for (const std::string& set : sets) {
-    if (names_robot(set)) apply_set(root, set);
+  std::vector<std::string> files = {path}, others;
+  for (const std::string& set : sets)
+    (trimmed(set.substr(0, set.find('='))) == "robot" ? files : others).push_back(set);
+  auto there = read_.find(files);
+  if (there == read_.end()) {
+    Node root = load(path);
+    for (std::size_t i = 1; i < files.size(); ++i) apply_set(root, files[i]);
+    root = with_robot(std::move(root));
+    resolve_files(root);
+    there = read_.emplace(std::move(files), placed(std::move(root))).first;
   }
-  root = with_robot(std::move(root));
-  resolve_files(root);
-  root = placed(std::move(root));
-  for (const std::string& set : sets) {
-    if (!names_robot(set)) apply_set(root, set);
-  }
+  Node root = there->second;
+  for (const std::string& set : others) apply_set(root, set);
   return root;
 }
 

@@ -18,6 +18,7 @@
 // valves files can also be composed alone, as can a resolved.toml.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,16 @@ namespace sinew::config {
 // Composes a file with its base, robot and settings. Every node keeps the file in which it was
 // written. Throws Error.
 Node compose(const std::string& path, const std::vector<std::string>& sets = {});
+
+// Composes files again and again, each time with other settings. A file is read once.
+class Composer {
+ public:
+  // Returns the same as compose(), for the contents that the files had at the first call.
+  Node compose(const std::string& path, const std::vector<std::string>& sets = {});
+
+ private:
+  std::map<std::vector<std::string>, Node> read_;  // by path and settings of `robot`
+};
 
 // Returns "experiment" for format = "sinew.experiment/1"; empty if there is no such key.
 std::string_view format_kind(const Node& root);

@@ -172,6 +172,26 @@ TEST_F(Compose, SetCanNameAnotherRobot) {
   EXPECT_EQ(at(root, "joint.hip.x")->integer, 2);
 }
 
+// A study must not mix rows of two versions of a file that is edited while it runs.
+TEST_F(Compose, AComposerReadsAFileOnce) {
+  write("leg/other.toml", "format = \"sinew.robot/1\"\nname = \"other\"\n");
+  const std::vector<std::string> damped = {"joint.hip.damping=2 N m s/rad"};
+  const std::vector<std::string> other = {"robot=" + path("leg/other.toml"), "seed=2"};
+  Composer composer;
+  const Node plain = composer.compose(path("tests/walk.toml"));
+  EXPECT_EQ(at(composer.compose(path("tests/walk.toml"), damped), "joint.hip.damping")->text,
+            at(compose(path("tests/walk.toml"), damped), "joint.hip.damping")->text);
+  EXPECT_EQ(at(composer.compose(path("tests/walk.toml"), other), "robot_name")->text, "other");
+  EXPECT_EQ(at(composer.compose(path("tests/walk.toml"), other), "seed")->integer, 2);
+
+  write("leg/actuator.toml", "format = \"sinew.actuator/1\"\nname = \"bpa\"\n");
+  const Node again = composer.compose(path("tests/walk.toml"));
+  EXPECT_EQ(at(again, "seed")->integer, 1);
+  EXPECT_EQ(at(again, "actuator.bpa.braid.turns")->integer, 2);
+  EXPECT_EQ(at(again, "joint.hip.damping.value")->text, at(plain, "joint.hip.damping.value")->text);
+  EXPECT_EQ(at(compose(path("tests/walk.toml")), "actuator.bpa.braid.turns"), nullptr);
+}
+
 TEST_F(Compose, SetTakesAnElementOfAList) {
   write("tests/path.toml",
         "format = \"sinew.experiment/1\"\nrobot = \"../leg/robot.toml\"\n"

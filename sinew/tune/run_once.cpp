@@ -52,8 +52,8 @@ RunResult refusing(const Work& work) {
 
 // A run that is ready to begin.
 struct Prepared {
-  Prepared(const RequestedRun& requested, bool allow_unreachable)
-      : Prepared(requested, config::compose(requested.experiment, requested.sets),
+  Prepared(const RequestedRun& requested, config::Composer& files, bool allow_unreachable)
+      : Prepared(requested, files.compose(requested.experiment, requested.sets),
                  allow_unreachable) {}
   Prepared(const RequestedRun& requested, const config::Node& root, bool allow_unreachable)
       : point(requested.point),
@@ -81,17 +81,20 @@ void summarize(const Prepared& p, const run::Outcome& outcome, RunResult& out) {
 RunResult run_once(const std::string& file, const std::vector<std::string>& sets,
                    bool allow_unreachable) {
   return refusing([&](RunResult& out) {
-    const Prepared p({0, file, sets}, allow_unreachable);
+    config::Composer files;
+    const Prepared p({0, file, sets}, files, allow_unreachable);
     summarize(p, run::run(p.experiment), out);
   });
 }
 
 void run_many(const Many& many) {
   std::vector<std::unique_ptr<Prepared>> going;
+  config::Composer files;
   const auto prepare = [&](const RequestedRun& requested) {
     std::unique_ptr<Prepared> p;
-    RunResult refused = refusing(
-        [&](RunResult&) { p = std::make_unique<Prepared>(requested, many.allow_unreachable); });
+    RunResult refused = refusing([&](RunResult&) {
+      p = std::make_unique<Prepared>(requested, files, many.allow_unreachable);
+    });
     if (!p) many.done(requested.point, std::move(refused));
     return p;
   };
