@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -333,7 +334,7 @@ Migrated migrated(std::string_view text, const std::string& name, const Changes&
 
   out.was_kind = out.kind;
   const int first = std::max(out.from, 1);
-  Problems problems(name);
+  Problems problems(name, std::numeric_limits<std::size_t>::max());
   const auto update_keys = [&](const Kind& kind, int from) {
     out.to = from;
     while (out.to < kind.newest) {

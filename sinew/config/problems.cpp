@@ -6,16 +6,10 @@
 
 namespace sinew::config {
 
-namespace {
-
-constexpr std::size_t most_problems = 8;
-
-}  // namespace
-
 void Problems::add(int line, int column, std::string key, std::string found, std::string expected,
                    std::string try_this) {
   ++count_;
-  if (problems_.size() < most_problems)
+  if (problems_.size() < most_)
     problems_.push_back({{file_, line, column},
                          std::move(key),
                          std::move(found),

@@ -1,6 +1,7 @@
-// config/problems.h - collection of the faults of a file; the first few are reported.
+// config/problems.h - collection of the faults of a file.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,9 @@ namespace sinew::config {
 
 class Problems {
  public:
-  // Takes the name of the file that has the faults.
-  explicit Problems(std::string file) : file_(std::move(file)) {}
+  // Takes the name of the file that has the faults. A file of many rows reports the first `most`
+  // and the number of the others.
+  explicit Problems(std::string file, std::size_t most = 8) : file_(std::move(file)), most_(most) {}
 
   // Adds a fault; `line` 0: it belongs to no line.
   void add(int line, int column, std::string key, std::string found, std::string expected,
@@ -22,6 +24,7 @@ class Problems {
 
  private:
   std::string file_;
+  std::size_t most_;
   std::vector<Problem> problems_;
   std::size_t count_ = 0;
 };

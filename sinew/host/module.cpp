@@ -1,6 +1,7 @@
 #include "sinew/host/module.h"
 
 #include <dlfcn.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -55,10 +56,10 @@ void* function_of(void* module, const char* name) { return dlsym(module, name); 
 void continue_as(std::vector<std::string> words, const std::string& if_missing,
                  const std::string& input) {
   if (!input.empty()) {
-    std::FILE* file = std::tmpfile();
+    std::FILE* file = ::fdopen(::memfd_create("input", 0), "w+");
     if (!file || std::fwrite(input.data(), 1, input.size(), file) != input.size() ||
         std::fflush(file) != 0 || ::dup2(::fileno(file), STDIN_FILENO) < 0)
-      throw std::system_error(errno, std::generic_category(), "a temporary file");
+      throw std::system_error(errno, std::generic_category(), "the input of " + words[0]);
     std::rewind(file);
   }
   std::vector<char*> arguments;
@@ -66,7 +67,8 @@ void continue_as(std::vector<std::string> words, const std::string& if_missing,
   arguments.push_back(nullptr);
   std::fflush(stdout);
   ::execvp(arguments[0], arguments.data());
-  throw std::runtime_error(if_missing);
+  if (errno == ENOENT) throw std::runtime_error(if_missing);
+  throw std::system_error(errno, std::generic_category(), words[0] + ": cannot be started");
 }
 
 }  // namespace sinew::host

@@ -19,8 +19,9 @@ void* open_module(const char* file);
 // Returns a function of the module by its name; nullptr if it has none.
 void* function_of(void* module, const char* name);
 
-// Continues as another program. Throws std::runtime_error with `if_missing` if it cannot be
-// started. `input`: text that it reads; else it has this program's stdin.
+// Continues as another program. Throws std::runtime_error with `if_missing` if the program does not
+// exist, and std::system_error if it cannot be started. `input`: text that it reads; else it has
+// this program's stdin.
 [[noreturn]] void continue_as(std::vector<std::string> words, const std::string& if_missing,
                               const std::string& input = "");
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
@@ -55,7 +56,7 @@ void check_row(const std::vector<ColumnMapping>& rows, std::size_t i, config::Pr
 }  // namespace
 
 void check_mapping(const Mapping& mapping, const std::string& file) {
-  config::Problems problems(file);
+  config::Problems problems(file, std::numeric_limits<std::size_t>::max());
   for (std::size_t i = 0; i < mapping.columns.size(); ++i) check_row(mapping.columns, i, problems);
   if (!mapping.clock.column.empty() && !mapping.clock.rate.empty())
     problems.add(

@@ -111,8 +111,8 @@ struct Options {
   std::atomic<std::int64_t>* progress = nullptr;  // completed points
   std::function<void(const Row&)> row = {};       // called for each row of the table, in order
   std::function<void(const Row&)> done = {};      // called for each completed run, at once
-  // Replaces the threads here: runs these points, passes their rows to `done` in any order, and
-  // returns when all are complete or it was stopped.
+  // Replaces the threads here: runs these points, passes their rows to `done` in any order and one
+  // at a time, and returns when all are complete or it was stopped.
   std::function<void(std::span<const std::size_t> points, const std::function<void(Row)>& done)>
       dispatch = {};
   Share share = {};             // the table has only these points

@@ -24,7 +24,8 @@
 //   v.list(Field, std::vector<T>&, [&](auto& v, T&) {...})   an array of tables, in order
 //   v.named_numbers(Field, std::map<std::string, double>&)   { hip = "300 deg", knee = "292 deg" }
 //
-// Only a reader has v.report_conflict(...); it is called by units/report_conflict.h.
+// A visitor that refuses keys which exclude each other also has v.report_conflict(...), which is
+// called by units/report_conflict.h.
 #pragma once
 
 #include <limits>

@@ -3,8 +3,7 @@
 //
 //   units::report_conflict(v, "polynomial", "4 coefficients", "at most 3");
 //
-// Only visitors that read handle it (config::Reader has `report_conflict`); for others it does
-// nothing.
+// A visitor without the function `report_conflict` ignores it.
 #pragma once
 
 #include <string>

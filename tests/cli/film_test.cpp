@@ -19,14 +19,17 @@ const std::string stand = "experiments/rig/feedback.toml";
 
 // Returns whether the shell finds one of these programs.
 bool is_installed(const std::string& programs) {
-  return std::system(("command -v " + programs + " >/dev/null").c_str()) == 0;
+  return std::system(("for p in " + programs +
+                      "; do command -v $p && exit 0; done >/dev/null; "
+                      "exit 1")
+                         .c_str()) == 0;
 }
 
 bool can_film() {
   return SINEW_HAS_PAGE && is_installed("python3") &&
          is_installed(
-             "${CHROMIUM:-chromium-headless-shell} || command -v chromium || command -v "
-             "google-chrome");
+             "${CHROMIUM:-chromium-headless-shell chromium chromium-browser google-chrome "
+             "google-chrome-stable}");
 }
 
 void run(const Workspace& w, const std::string& experiment, const std::string& folder) {

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "sinew/config/compose.h"
 #include "sinew/report/page/picture.h"
+#include "tests/places.h"
 
 namespace sinew::report::changes_test {
 namespace {
@@ -45,13 +47,14 @@ TEST(Changes, WhatIsNotSaidAsAResolvedFileDoesIsLeftOut) {
     EXPECT_TRUE(changes_of(config::parse_text(text, "resolved.toml")).empty()) << text;
 }
 
-TEST(Picture, IsOfTheStandOrOfARecordingWhereThereIsNoRobot) {
-  const auto drawn = [](const char* text) {
-    return Json::parse(picture(config::parse_text(text, "resolved.toml")));
-  };
-  EXPECT_EQ(drawn("format = \"sinew.experiment/1\"\n[element]\n"), (Json{{"stand", true}}));
-  const Json log = drawn("title = \"a log\"");
-  EXPECT_TRUE(log.empty() || log["scene"].is_null());
+TEST(Picture, HasTheLinksOfARobotTheStandOrNothing) {
+  const auto drawn = [](const config::Node& resolved) { return Json::parse(picture(resolved)); };
+  const Json leg = drawn(config::compose(test::source_dir() + "/experiments/one-joint.toml"));
+  ASSERT_EQ(leg["scene"]["links"].size(), 1u);
+  EXPECT_NEAR(leg["scene"]["links"][0]["length"].number(), 0.1524, 1e-9);  // 6 in
+  EXPECT_EQ(drawn(config::parse_text("format = \"sinew.experiment/1\"\n[element]\n", "a")),
+            (Json{{"stand", true}}));
+  EXPECT_TRUE(drawn(config::parse_text("title = \"a log\"", "b")).empty());
 }
 
 }  // namespace
