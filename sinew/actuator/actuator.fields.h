@@ -431,6 +431,13 @@ void fields(Visitor& v, Hysteresis& h) {
             .optional = true,
             .doc = "d, what half_width grows by per contraction, counted from long_end.length"},
            h.width_per_contraction);
+  v.number({.name = "width_per_tension",
+            .unit = "1",
+            .min = 0,
+            .max = 0.4,
+            .optional = true,
+            .doc = "share of the tension by which filling pulls less, and venting more"},
+           h.width_per_tension);
   v.number({.name = "volume_pressure",
             .unit = "Pa diff",
             .min = 0,

@@ -91,6 +91,7 @@ struct Hysteresis {
   double half_width = 0;             // w_0 [Pa]
   double width_per_pressure = 0;     // w_P [-], below 1
   double width_per_contraction = 0;  // w_eps [Pa], contraction relative to L_max
+  double width_per_tension = 0;      // w_F [-], share of the tension
   double volume_pressure = 0;        // P_V [Pa]: has the effect of the greatest volume
 };
 

@@ -48,6 +48,7 @@ FieldVisitor leg() {
       {"hysteresis.half_width", {2500}},
       {"hysteresis.width_per_pressure", {0.004}},
       {"hysteresis.width_per_contraction", {4e4}},
+      {"hysteresis.width_per_tension", {0.02}},
       {"hysteresis.volume_pressure", {1e6}},
       {"creep.share", {0.03, 0.02}},
       {"creep.time", {0.5, 10}},
@@ -88,6 +89,7 @@ TEST(ActuatorFields, FillEveryMember) {
   EXPECT_EQ(a.hysteresis.half_width, 2500);
   EXPECT_EQ(a.hysteresis.width_per_pressure, 0.004);
   EXPECT_EQ(a.hysteresis.width_per_contraction, 4e4);
+  EXPECT_EQ(a.hysteresis.width_per_tension, 0.02);
   EXPECT_EQ(a.hysteresis.volume_pressure, 1e6);
   EXPECT_EQ(a.creep.share, (std::array{0.03, 0.02}));
   EXPECT_EQ(a.creep.time, (std::array{0.5, 10.0}));

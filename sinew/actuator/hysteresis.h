@@ -3,12 +3,15 @@
 //
 //   F = F(L, P_e)       P_e = P_g - P_f                     fill: P_f = w, vent: P_f = -w
 //   P_f = P_x - z       z the play that follows P_x = P_g + P_V V/V_max, |P_x - z| <= w
-//   w = w_0 + w_P P_g + w_eps (1 - L/L_max), >= 0           half the loop's width at one length
+//   w = w_0 + w_P P_g + w_eps (1 - L/L_max) + w_F F/F_P     half the loop's width at one length
 //
 //   P_g, P_e  gauge pressure, effective pressure of the mesh [Pa]     w_0, w_eps, P_V [Pa]
-//   P_f       friction, as a pressure [Pa]                            w_P [-], below 1
+//   P_f       friction, as a pressure [Pa]                            w_P, w_F [-], below 1
 //   z         the only state [Pa]       L, L_max  length, with straight threads [m]
 //   V, V_max  volume of the braid, its maximum (braid.h) [m3]
+//   F/F_P     tension over its slope by the pressure: pressure that pulls, at most 2 P_g [Pa]
+//
+// With w_F alone filling and venting pull 1 - w_F and 1 + w_F of F, where F is linear in P_g.
 //
 // With P_V = 0 only the pressure reverses the friction: a cycle of pressure at constant length has
 // a loop, a cycle of length at constant pressure has none. With P_V a change of volume reverses it
@@ -23,22 +26,43 @@
 // not depend on the path: any steps through the same turning points lead to the same z.
 #pragma once
 
+#include <algorithm>
+
 #include "sinew/actuator/actuator.h"
 #include "sinew/actuator/braid.h"
+#include "sinew/actuator/stiffness.h"
+#include "sinew/actuator/tension.h"
+#include "sinew/units/constants.h"
 
 namespace sinew::actuator {
 
 // Returns whether there is friction that depends on the pressure's direction.
 constexpr bool has_hysteresis(const Hysteresis& h) {
-  return h.half_width > 0 || h.width_per_pressure > 0 || h.width_per_contraction > 0;
+  return h.half_width > 0 || h.width_per_pressure > 0 || h.width_per_contraction > 0 ||
+         h.width_per_tension > 0;
+}
+
+// Returns F/F_P, the part of the gauge pressure that pulls [Pa]; 0 where the muscle does not pull
+// or its threshold takes the pressure.
+inline double pulling_pressure(const Actuator& a, double length, double gauge_pressure,
+                               double atmosphere) {
+  const double force = clamped_tension(a, length, 0, gauge_pressure, atmosphere);
+  const double slope =
+      tension_per_pressure(a, length, gauge_pressure, atmosphere, EffectivenessSlope::included);
+  if (!(force > 0 && slope > 0 && gauge_pressure > 0)) return 0;
+  return std::min(force / slope, 2 * gauge_pressure);
 }
 
 // Returns w, the bound of the friction [Pa]; below the atmosphere that at the atmosphere.
-constexpr double half_width(const Actuator& a, double length, double gauge_pressure) {
+inline double half_width(const Actuator& a, double length, double gauge_pressure,
+                         double atmosphere = units::atmosphere) {
   const Hysteresis& h = a.hysteresis;
   const double contraction = 1.0 - length / a.long_end.length;
-  return h.half_width + h.width_per_pressure * (gauge_pressure > 0 ? gauge_pressure : 0.0) +
-         (contraction > 0 ? h.width_per_contraction * contraction : 0.0);
+  const double w = h.half_width +
+                   h.width_per_pressure * (gauge_pressure > 0 ? gauge_pressure : 0.0) +
+                   (contraction > 0 ? h.width_per_contraction * contraction : 0.0);
+  if (!(h.width_per_tension > 0)) return w;
+  return w + h.width_per_tension * pulling_pressure(a, length, gauge_pressure, atmosphere);
 }
 
 // Returns P_x, which the play follows [Pa].
@@ -60,9 +84,9 @@ struct EffectivePressure {
   double play = 0;            // z [Pa]
 };
 inline EffectivePressure effective_pressure(const Actuator& a, double length, double gauge_pressure,
-                                            double z) {
+                                            double z, double atmosphere = units::atmosphere) {
   const double x = drive(a.hysteresis, a.braid, length, gauge_pressure);
-  const double now = play(z, x, half_width(a, length, gauge_pressure));
+  const double now = play(z, x, half_width(a, length, gauge_pressure, atmosphere));
   return {gauge_pressure - (x - now), now};
 }
 

@@ -110,6 +110,31 @@ TEST(Hysteresis, LoopsGrowWithTheContraction) {
   }
 }
 
+// Filling pulls a share less than the mean, and venting as much more, at every length: exactly if
+// the tension is linear in the pressure, and within a tenth of the loop for elastic ends and a toe.
+TEST(Hysteresis, AShareOfTheTensionIsTheSameAtEveryLength) {
+  for (const bool soft : {false, true}) {
+    Actuator a = with({.width_per_tension = 0.025});
+    a.effectiveness = {.threshold = 0.3 * bar};
+    a.bladder = {.stiffness = 300, .rest_length = 3.6 * inch};
+    if (soft) {
+      a.series.compliance = 2e-5;
+      a.toe.tension = 3;
+    }
+    for (const double length : {2.8, 3.1, 3.5}) {
+      const double l = length * inch, p = 4 * bar;
+      double z = play_at_rest(a, l, 0);
+      go(a, {l, 0}, {l, p}, 100, z);
+      const double fill = effective_pressure(a, l, p, z).gauge_pressure;
+      go(a, {l, p}, {l, 7 * bar}, 100, z);
+      go(a, {l, 7 * bar}, {l, p}, 100, z);
+      const double vent = effective_pressure(a, l, p, z).gauge_pressure;
+      const auto force = [&](double at) { return tension(a, l, 0, at, units::atmosphere); };
+      EXPECT_NEAR(force(vent) - force(fill), 0.05 * force(p), (soft ? 5e-3 : 1e-9) * force(p));
+    }
+  }
+}
+
 TEST(Hysteresis, IsBoundedAndGrowsWithThePressure) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> pressures(-0.2 * bar, 7 * bar), lengths(2.5, 4.0),

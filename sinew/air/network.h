@@ -239,7 +239,7 @@ double AirNetwork<Most>::smooth_tension(int i, double length, double rate, doubl
   double effective_gauge = gauge;
   if (l.plays) {
     const actuator::EffectivePressure effective =
-        actuator::effective_pressure(m.actuator, length, gauge, memory.play[i]);
+        actuator::effective_pressure(m.actuator, length, gauge, memory.play[i], air_.atmosphere);
     effective_gauge = effective.gauge_pressure;
     out.play[i] = effective.play;  // applied by update_memory() alone
   }

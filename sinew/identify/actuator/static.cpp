@@ -222,8 +222,9 @@ using Points = std::vector<StaticPoint>;
 // These parameters may be at a bound without disqualifying a law. Zero is a valid result for
 // branches that coincide and for ends that take no length or do not give way. A thread at the
 // shortest length of a braid still fits within the data; describe() notes it.
-constexpr std::string_view may_be_at_bound[] = {"half_width", "width_per_pressure", "end_loss",
-                                                "thread_length", "series_compliance"};
+constexpr std::string_view may_be_at_bound[] = {"half_width",        "width_per_pressure",
+                                                "width_per_tension", "end_loss",
+                                                "thread_length",     "series_compliance"};
 
 // Gives muscles without a rest length the longest length of the points.
 void give_rest_length(Points& points, Report& report) {

@@ -272,7 +272,7 @@ double law_force(const actuator::Actuator& a, double length, const StaticPoint& 
                  double atmosphere) {
   double p = point.pressure;
   if (actuator::has_hysteresis(a.hysteresis))
-    p -= static_cast<int>(point.branch) * actuator::half_width(a, length, p);
+    p -= static_cast<int>(point.branch) * actuator::half_width(a, length, p, atmosphere);
   return actuator::clamped_tension(a, length, 0, p, atmosphere);
 }
 

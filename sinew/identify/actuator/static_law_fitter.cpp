@@ -181,7 +181,8 @@ StaticLawFitter::StaticLawFitter(const StaticModel& model, const StaticScales& s
   if (muscles.size() > 1 && !gives_way) free_parameters_.push_back(FreeParameter::end_loss);
   if (fill && vent)
     free_parameters_.insert(free_parameters_.end(),
-                            {FreeParameter::half_width, FreeParameter::width_per_pressure});
+                            {FreeParameter::half_width, FreeParameter::width_per_pressure,
+                             FreeParameter::width_per_tension});
   if (count_of(length_groups(points)) > 1) return;
   if (!scales.braid)
     throw Refusal("lengths", "one length only", "several lengths, or a braid that is known",

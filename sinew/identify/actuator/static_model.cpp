@@ -104,6 +104,7 @@ constexpr std::array infos = {
     Info{"wall_thickness", "wall.thickness", "m"},
     Info{"half_width", "hysteresis.half_width", "Pa diff"},
     Info{"width_per_pressure", "hysteresis.width_per_pressure", "1"},
+    Info{"width_per_tension", "hysteresis.width_per_tension", "1"},
     Info{"end_loss", "", "m"},
     Info{"series_compliance", "series.compliance", "m/N"},
     Info{"toe_tension", "toe.tension", "N"},
@@ -185,6 +186,8 @@ double& value_of(StaticSetting& setting, FreeParameter free_parameter) {
       return a.hysteresis.half_width;
     case width_per_pressure:
       return a.hysteresis.width_per_pressure;
+    case width_per_tension:
+      return a.hysteresis.width_per_tension;
     case series:
       return a.series.compliance;
     case toe:
@@ -246,6 +249,7 @@ Parameter parameter_of(FreeParameter free_parameter, const StaticScales& s) {
     case half_width:
       return make(0.01 * p, 0, 0.3 * p, 0.01 * p);
     case width_per_pressure:
+    case width_per_tension:
       return make(0.01, 0, 0.3, 0.01);
     case end_loss:
       return make(0, -0.3 * l, 0.15 * l, 0.02 * l);

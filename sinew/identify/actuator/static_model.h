@@ -53,6 +53,7 @@ enum class FreeParameter {
   wall,
   half_width,
   width_per_pressure,
+  width_per_tension,
   end_loss,
   series,
   toe

@@ -20,6 +20,39 @@ constexpr std::pair<FreeParameter, int> powers[] = {
     {FreeParameter::stiffness, -1},        {FreeParameter::toe, -1},
     {FreeParameter::quadratic, -2},        {FreeParameter::cubic, -3}};
 
+// Tension of an actuator at one length and pressure, with its derivatives.
+struct TensionAt {
+  double tension;
+  StaticSetting by;
+  actuator::TensionSlopes slopes;
+
+  TensionAt(const actuator::Actuator& a, double length, double pressure, double atmosphere)
+      : tension(actuator::clamped_tension(a, length, 0, pressure, atmosphere)),
+        slopes(actuator::tension_slopes(a, length, pressure, atmosphere, tension, by.actuator)) {}
+};
+
+// Adds `share` times the derivatives of the pulling pressure (hysteresis.h) at a length and a
+// pressure. Mixed second derivatives of the tension are differences over the pressure.
+void add_pulling_slopes(const actuator::Actuator& a, double length, double pressure,
+                        double atmosphere, double share, ForceSlopes& out) {
+  const double step = 1e-4 * pressure;
+  TensionAt low(a, length, pressure - step, atmosphere),
+      high(a, length, pressure + step, atmosphere);
+  const auto slope = [&, by_pressure = 0.5 * (low.slopes.by_pressure + high.slopes.by_pressure),
+                      tension = 0.5 * (low.tension + high.tension)](double at_low, double at_high) {
+    const double mixed = 0.5 * (at_high - at_low) / step;
+    return share * (0.5 * (at_low + at_high) - tension * mixed / by_pressure) / by_pressure;
+  };
+  const auto add = [&](auto place) {
+    place(out.by_parameter) += slope(place(low.by), place(high.by));
+  };
+  for (int q = 0; q <= static_cast<int>(FreeParameter::toe); ++q)
+    add([q](StaticSetting& s) -> double& { return value_of(s, static_cast<FreeParameter>(q)); });
+  add([](StaticSetting& s) -> double& { return s.actuator.effectiveness.scale; });
+  add([](StaticSetting& s) -> double& { return s.actuator.taper.rest_length; });
+  out.by_length += slope(low.slopes.by_length, high.slopes.by_length);
+}
+
 }  // namespace
 
 MuscleLaw::MuscleLaw(const StaticSetting& setting, const StaticScales& scales, double labelled)
@@ -40,12 +73,22 @@ void MuscleLaw::write_slopes(double length, const StaticPoint& point, double for
   const actuator::Actuator& a = own_.actuator;
   const double branch = static_cast<int>(point.branch);
   actuator::Actuator& by = out.by_parameter.actuator;
-  const double felt = point.pressure - branch * actuator::half_width(a, length, point.pressure);
+  const double p = point.pressure;
+  const double felt = p - branch * actuator::half_width(a, length, p, atmosphere_);
   const auto [by_length, by_pressure] =
       actuator::tension_slopes(a, length, felt, atmosphere_, force, by);
-  by.hysteresis.half_width = -branch * by_pressure;
-  by.hysteresis.width_per_pressure = -branch * by_pressure * std::max(point.pressure, 0.0);
   out.by_length = by_length;
+  by.hysteresis = {};
+  out.by_parameter.end_loss = 0;
+  if (branch != 0) {
+    const double by_width = -branch * by_pressure, share = a.hysteresis.width_per_tension;
+    const double pulls = actuator::pulling_pressure(a, length, p, atmosphere_);
+    if (share > 0 && pulls > 0 && pulls < 2 * p)
+      add_pulling_slopes(a, length, p, atmosphere_, by_width * share, out);
+    by.hysteresis = {.half_width = by_width,
+                     .width_per_pressure = by_width * std::max(p, 0.0),
+                     .width_per_tension = by_width * pulls};
+  }
   out.by_parameter.end_loss = -by.effectiveness.scale / rest_length_;
   double by_ratio = by.effectiveness.scale * (1 - a.effectiveness.scale) +
                     by.taper.rest_length * a.taper.rest_length;

@@ -37,7 +37,8 @@ TEST(StaticSlopes, AreTheDifferencesOfTheForceForEveryLaw) {
       std::vector<FreeParameter> free_parameters = free_parameters_of(model, scales);
       free_parameters.push_back(FreeParameter::end_loss);
       free_parameters.insert(free_parameters.end(),
-                             {FreeParameter::half_width, FreeParameter::width_per_pressure});
+                             {FreeParameter::half_width, FreeParameter::width_per_pressure,
+                              FreeParameter::width_per_tension});
       StaticSetting at = setting_of(scales);
       for (const FreeParameter free_parameter : free_parameters) {
         // Between the start and 3 scales beyond it, within the bounds.

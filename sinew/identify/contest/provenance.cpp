@@ -90,6 +90,7 @@ actuator::Actuator without_idle_digits(actuator::Actuator a) {
                          &a.toe.tension,
                          &a.hysteresis.half_width,
                          &a.hysteresis.width_per_pressure,
+                         &a.hysteresis.width_per_tension,
                          &a.long_end.length,
                          &a.prediction.rest_length,
                          &a.prediction.lowest,

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "sinew/actuator/hysteresis.h"
 #include "sinew/identify/contest/contest.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
@@ -309,8 +310,7 @@ DecaySummary summary_of(const Swing& swing) {
 
 void refuse_memory(const DecayRecord& record) {
   const actuator::Actuator& a = record.stand.actuator;
-  const bool lags = a.hysteresis.half_width > 0 || a.hysteresis.width_per_pressure > 0 ||
-                    a.hysteresis.width_per_contraction > 0;
+  const bool lags = actuator::has_hysteresis(a.hysteresis);
   const bool creeps = a.creep.share[0] > 0 || a.creep.share[1] > 0;
   if (lags || creeps)
     throw Refusal(
