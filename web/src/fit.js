@@ -85,7 +85,7 @@ class Part {
     const rows = report.parameters.map((p) => {
       const u = units.of(p.unit), half = p.high === null || p.high === p.low ? NaN : 0.5 * (p.high - p.low) * u.scale;
       const value = units.convert(p.value, p.unit);
-      const note = p.at_bound ? 'at the bound of its range' : !p.identifiable ? 'not determined by these data'
+      const note = p.known?.startsWith('frozen') ? p.known : p.at_bound ? 'at the bound of its range' : !p.identifiable ? 'not determined by these data'
         : p.known?.replace('+-', '±') || (!Number.isFinite(half) ? 'no interval' : '');
       const [shown, interval] = precise(value, half);
       return element('tr', { 'data-name': p.name, 'data-value': p.value }, element('th', { scope: 'row', class: 'key' }, p.name),

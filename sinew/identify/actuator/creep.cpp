@@ -102,7 +102,8 @@ std::vector<Parameter> parameters(const Held& held, const Form& form) {
                    .start = 0.01 * top,
                    .low = 0,
                    .high = 0.3 * top,
-                   .scale = 0.01 * top});
+                   .scale = 0.01 * top,
+                   .may_widen = true});
   constexpr std::string_view shares[] = {"share_1", "share_2"};
   constexpr std::string_view times[] = {"time_1", "time_2"};
   for (int k = 0; k < form.elements; ++k) {
@@ -112,13 +113,15 @@ std::vector<Parameter> parameters(const Held& held, const Form& form) {
                    .start = 0.05,
                    .low = 0,
                    .high = 2,
-                   .scale = 0.1});
+                   .scale = 0.1,
+                   .may_widen = true});
     out.push_back({.name = std::string(times[k]),
                    .unit = "s",
                    .start = tau,
                    .low = 1e-3 * span,
                    .high = 2 * span,
-                   .scale = tau});
+                   .scale = tau,
+                   .may_widen = true});
   }
   return out;
 }

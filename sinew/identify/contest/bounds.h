@@ -16,6 +16,11 @@ namespace sinew::identify {
 // Minimises the residuals of the problem. Writes widened bounds (Parameter::may_widen) and frozen
 // parameters into it, so that cross-validation and profiles search the same ranges.
 Solution least_squares_within(FitProblem& problem);
+// Widens and freezes the parameters that a solution has at guessed bounds, and solves again.
+Solution least_squares_within(FitProblem& problem, Solution found);
+
+// Returns the solution within the bounds as they are.
+Solution least_squares(const FitProblem& problem);
 
 // Moves the starts of the problem's parameters to these values, within their bounds.
 void start_at(std::span<const double> values, FitProblem& problem);

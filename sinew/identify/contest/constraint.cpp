@@ -99,6 +99,8 @@ const Parameter& named(const Constraint& constraint, std::string_view name,
                "a parameter: " + config::either(there), config::closest_in_quotes(name, there));
 }
 
+constexpr const char* frozen_at_bound = "frozen at its bound";
+
 // The problem without frozen and tied parameters, and the mapping back to all parameters.
 struct Reduced {
   std::vector<Parameter> parameters;
@@ -148,7 +150,7 @@ Reduced reduce(std::span<const Parameter> parameters, const Constraints& constra
       out.parameters.push_back(parameters[i]);
     } else if (constraint->kind == Constraint::Kind::freeze) {
       out.frozen[i] = value_of(*constraint, parameters[i]);
-      out.known[i] = "frozen";
+      out.known[i] = constraint->at_bound ? frozen_at_bound : "frozen";
     } else if (constraint->kind == Constraint::Kind::prior) {
       add_prior(*constraint, parameters[i], i, out);
     }
@@ -233,6 +235,7 @@ Solution restored(Solution s, std::size_t count, std::span<const Parameter> para
     e.unit = parameters[i].unit;
     e.free = at >= 0 && !tied;
     e.known = reduced.known[i];
+    e.at_bound |= e.known == frozen_at_bound;
     for (const Reduced::Prior& prior : reduced.priors)
       if (e.free && static_cast<int>(prior.place) == at) e.known += compared(prior, e);
     out.estimates.push_back(std::move(e));
@@ -274,12 +277,13 @@ void Constraints::check(std::span<const Parameter> all) const {
   }
 }
 
-Constraints Constraints::with_frozen(const std::string& parameter, double value) const {
+Constraints Constraints::with_frozen(const std::string& parameter, double value,
+                                     bool at_bound) const {
   Constraints out = *this;
   std::erase_if(out.all_,
                 [&](const Constraint& constraint) { return constraint.name == parameter; });
   out.all_.push_back(
-      {.name = parameter, .value = fmt::format("{:.17g} SI", value), .deviation = ""});
+      {.name = parameter, .value = fmt::format("{:.17g} SI", value), .at_bound = at_bound});
   return out;
 }
 

@@ -38,6 +38,7 @@ struct Constraint {
   std::string name;       // name of the parameter
   std::string value;      // for a tie: the other parameter's name
   std::string deviation;  // for a prior: its standard deviation
+  bool at_bound = false;  // for a freeze: the data push against this value (bounds.h)
 };
 
 // Constraints on the parameters of a method, for all of its laws.
@@ -54,8 +55,9 @@ class Constraints {
   // Returns the constraint on the parameter: its own, else that of its kind; null: none.
   const Constraint* of(std::string_view parameter) const;
 
-  // Returns the same constraints with the parameter frozen at the value [SI].
-  Constraints with_frozen(const std::string& parameter, double value) const;
+  // Returns the same constraints with the parameter frozen at the value [SI]; `at_bound`: as the
+  // data push against it.
+  Constraints with_frozen(const std::string& parameter, double value, bool at_bound = false) const;
 
   bool empty() const { return all_.empty(); }
 

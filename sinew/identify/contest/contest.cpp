@@ -41,25 +41,17 @@ Rowset all_of(const std::vector<double>& measured) {
   return out;
 }
 
-Solution solution_of(const FitProblem& problem, const SolverOptions& options) {
-  return least_squares(problem.residuals, problem.count, problem.parameters, problem.constraints,
-                       options);
-}
-
 // Returns the solutions from the candidate's starts. A start at which the law is undefined has
 // none; throws Refusal if all are of this kind.
 std::vector<Solution> solutions_of(const Candidate& candidate, FitProblem problem) {
-  SolverOptions options = problem.options;
+  SolverOptions& options = problem.options;
   options.tolerance = std::max(options.tolerance, candidate.search_tolerance);
   if (candidate.search_steps > 0) options.most_steps = candidate.search_steps;
   std::vector<Solution> out;
   for (const std::vector<double>& start : candidate.starts) {
-    for (std::size_t i = 0; i < start.size(); ++i) {
-      Parameter& p = problem.parameters[i];
-      p.start = std::clamp(start[i], p.low, p.high);
-    }
+    start_at(start, problem);
     try {
-      out.push_back(solution_of(problem, options));
+      out.push_back(least_squares(problem));
     } catch (const Refusal&) {
       if (&start == &candidate.starts.back() && out.empty()) throw;
     }
@@ -105,7 +97,7 @@ std::vector<double> left_out_residuals(const Candidate& candidate, const Trial& 
       some.constraints = problem.constraints;
       start_at(whole.values, some);
       some.options.tolerance = std::max(some.options.tolerance, 1e-12);
-      part = solution_of(some, some.options);
+      part = least_squares(some);
     }
     const auto left = at(misses(candidate, trial.measured, part.values), split.held_out);
     out.insert(out.end(), left.begin(), left.end());
@@ -123,10 +115,9 @@ Solution solved(const Candidate& candidate, FitProblem& problem) {
         all, {}, [&](const Solution& s) { return loss_of(s, problem.options.outlier); });
     start_at(best->values, problem);
   }
-  if (!best || candidate.search_steps > 0 ||
-      candidate.search_tolerance > problem.options.tolerance ||
-      std::ranges::any_of(problem.parameters, &Parameter::may_widen))
-    best = least_squares_within(problem);
+  if (!best || candidate.search_steps > 0 || candidate.search_tolerance > problem.options.tolerance)
+    best = least_squares(problem);
+  best = least_squares_within(problem, std::move(*best));
   if (candidate.finish) candidate.finish(problem, all, *best);
   return std::move(*best);
 }

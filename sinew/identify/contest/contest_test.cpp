@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
+
+#include "sinew/identify/contest/bounds.h"
 
 namespace sinew::identify::contest_test {
 namespace {
@@ -132,6 +135,7 @@ TEST(Contest, WidensAGuessedBoundOnceAndThenFreezesTheParameter) {
   EXPECT_EQ(slope(2).value, 1);
   EXPECT_FALSE(slope(2).free);
   EXPECT_EQ(slope(2).known, "frozen at its bound");
+  EXPECT_TRUE(slope(2).at_bound);
   EXPECT_EQ(report.fits[2].not_chosen, "");
   EXPECT_GT(report.fits[2].cross_validated->rmse, report.fits[1].cross_validated->rmse);
   EXPECT_EQ(report.fits[3].not_chosen, "b at the bound of its range");
@@ -152,6 +156,27 @@ TEST(Contest, WidensEachBoundOnce) {
     EXPECT_NEAR(found.value, free.value, 1e-6) << i;
     EXPECT_TRUE(found.free) << i;
   }
+}
+
+// `b` is pushed to 10, `a` steps to 1 where b is above 0.6, and `c` follows a. When b has been
+// frozen at 0.8 and a has been widened, c comes to its bound of 0.7, which is widened in its turn.
+TEST(Contest, WidensABoundThatIsReachedAfterAnotherParameterWasFrozen) {
+  FitProblem chain{.count = 4};
+  chain.residuals = [](std::span<const double> p, std::span<double> r) {
+    r[0] = p[0] - 10, r[1] = p[1] - 1 / (1 + std::exp(50 * (0.6 - p[0]))), r[2] = p[2] - p[1],
+    r[3] = 0;
+    return true;
+  };
+  for (const auto& [name, high] : {std::pair("b", 0.4), std::pair("a", 0.6), std::pair("c", 0.7)})
+    chain.parameters.push_back({.name = name, .unit = "1", .high = high, .may_widen = true});
+  const Solution found = least_squares_within(chain);
+  for (const std::size_t i : {0u, 1u, 2u}) {
+    EXPECT_NEAR(found.values[i], i == 0 ? 0.8 : 1, 1e-3) << i;
+    EXPECT_EQ(found.estimates[i].free, i > 0) << i;
+    EXPECT_EQ(found.estimates[i].at_bound, i == 0) << i;
+  }
+  EXPECT_EQ(found.estimates[0].known, "frozen at its bound");
+  EXPECT_EQ(chain.parameters[2].high, 1.4);
 }
 
 TEST(Contest, WarnsOfASearchThatHasNotSettled) {

@@ -223,7 +223,7 @@ std::vector<std::string> does_not_show(const Report& report) {
   const Fit& best = report.best();
   std::vector<std::string> names, at_bounds;
   for (const Estimate& e : best.parameters)
-    if (e.profile ? !e.profile->pinned : e.at_bound && e.free)
+    if (e.profile ? !e.profile->pinned : e.at_bound)
       (e.profile ? names : at_bounds).push_back(e.name);
   if (!at_bounds.empty())
     out.push_back(fmt::format("the value{} of {}, at the bound of {} range",
@@ -259,7 +259,7 @@ std::vector<std::string> does_not_show(const Report& report) {
 void keep_off_bounds(Fit& fit, std::span<const std::string_view> but_for) {
   std::string names;
   for (const Estimate& e : fit.parameters)
-    if (e.at_bound && std::ranges::find(but_for, e.name) == but_for.end())
+    if (e.at_bound && e.free && std::ranges::find(but_for, e.name) == but_for.end())
       names += (names.empty() ? "" : ", ") + e.name;
   if (!names.empty()) fit.not_chosen = names + " at the bound of its range";
 }

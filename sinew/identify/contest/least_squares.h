@@ -31,8 +31,9 @@ struct Parameter {
   std::string unit;  // SI
   double start = 0;
   double low = -unbounded, high = unbounded;
-  double scale = 1;        // size of a significant change, > 0
-  bool may_widen = false;  // a bound of its size is a guess (bounds.h)
+  double scale = 1;                 // size of a significant change, > 0
+  bool may_widen = false;           // a bound of its size is a guess (bounds.h)
+  bool is_scaled_by_start = false;  // its size is unknown before a start is given: that is `scale`
 };
 
 // Writes the residuals for the parameters p; their number is constant. May return false if the
@@ -81,7 +82,7 @@ struct Estimate {
   double standard_error = 0;  // infinite: not identifiable
   double low = 0, high = 0;   // 95 % interval
   bool identifiable = true;
-  bool at_bound = false;           // the optimum is beyond the bound: no interval
+  bool at_bound = false;           // the optimum is beyond the bound: no interval; free or frozen
   bool free = true;                // false: frozen, or tied to another parameter
   std::string known;               // prior knowledge in words, e.g. "frozen"; empty: none
   std::optional<Profile> profile;  // for the chosen law, if its method has profiles

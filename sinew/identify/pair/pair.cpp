@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sinew/identify/contest/bounds.h"
 #include "sinew/identify/contest/contest.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
@@ -34,13 +35,14 @@ class PairProblem {
   // Returns several starts, with large and small presliding and fade time.
   std::vector<std::vector<double>> starts() const;
 
+  // Writes the effort at every sample of each recording, one after the other.
+  void predict(std::span<const double> p, std::span<double> effort);
   // Writes predicted - measured effort at the rows of each recording, one after the other.
   void residuals(std::span<const double> p, std::span<const PairRows> rows,
                  std::vector<double>& out);
 
-  // Returns the best solution of the starts.
-  Refit solve(std::span<const PairRows> rows, std::span<const std::vector<double>> starts,
-              const Constraints& constraints, bool correlated) const;
+  // Returns the problem of fitting the rows of each recording.
+  FitProblem fit(std::span<const PairRows> rows, const Constraints& constraints) const;
 
   // Returns all parameters: values of `known` where it has the name, the others fitted.
   std::vector<double> settled(std::span<const PairRows> rows, const Solution& known);
@@ -57,9 +59,6 @@ class PairProblem {
 
   void add_physics(double stiffness);
   void add_sensors(double stiffness, std::size_t fitted);
-  bool scaled_by_start(std::size_t i) const;
-  FitProblem at(std::span<const PairRows> rows, const std::vector<double>& start,
-                const Constraints& constraints, bool correlated) const;
   void simulate(std::span<const double> p, std::size_t record);
 
   const PairLaw& law_;
@@ -74,15 +73,15 @@ class PairProblem {
   double range_ = 0, effort_ = 0, duration_ = 0;  // ranges of position, effort and time
 };
 
-// Largest plausible delay of a sensor [s].
+// Largest likely delay of a sensor [s], a guess.
 constexpr double most_delay = 0.1;
-
-// Kinks can stop progress, and then further steps gain nothing.
-constexpr int most_steps = 25;
 
 // Difference step, in parameter scales, that averages over the kinks where friction begins and ends
 // to slip.
 constexpr double smooth = 0.02;
+
+// Kinks can stop progress, and then further steps gain nothing.
+const SolverOptions pair_options{.correlated = true, .most_steps = 25, .difference = smooth};
 
 double largest_size(std::span<const double> values) {
   return std::max(std::abs(largest(values)), std::abs(smallest(values)));
@@ -176,10 +175,22 @@ void PairProblem::add_physics(double stiffness) {
   add(law_.friction != PairFriction::none,
       {"friction", rotary ? "N m" : "N", tenth, 0, unbounded, tenth}, &PairValues::friction);
   add(presliding,
-      {"presliding", at, 0.01 * range_, std::min(finest, 1e-3 * range_), 2 * range_, 0.01 * range_},
+      {.name = "presliding",
+       .unit = at,
+       .start = 0.01 * range_,
+       .low = std::min(finest, 1e-3 * range_),
+       .high = 2 * range_,
+       .scale = 0.01 * range_,
+       .is_scaled_by_start = true},
       &PairValues::presliding);
   add(law_.friction == PairFriction::fading,
-      {"fade_time", "s", 0.05 * duration_, 2 * least, 100 * duration_, 0.05 * duration_},
+      {.name = "fade_time",
+       .unit = "s",
+       .start = 0.05 * duration_,
+       .low = 2 * least,
+       .high = 100 * duration_,
+       .scale = 0.05 * duration_,
+       .is_scaled_by_start = true},
       &PairValues::fade_time);
 }
 
@@ -193,9 +204,10 @@ void PairProblem::add_sensors(double stiffness, std::size_t fitted) {
   for (std::size_t i = 0; i < rigs_.size(); ++i) {
     delay_.push_back(parameters_.size());
     parameters_.push_back(
-        {named("delay", rigs_[i], one_rig && i == 0), "s", 0, -most_delay, most_delay, 0.05});
+        {named("delay", rigs_[i], one_rig && i == 0), "s", 0, -most_delay, most_delay, 0.05, true});
     gain_.push_back(i == 0 ? 0 : parameters_.size());
-    if (i > 0) parameters_.push_back({named("gain", rigs_[i], false), "1", 1, 0.01, 100, 0.1});
+    if (i > 0)
+      parameters_.push_back({named("gain", rigs_[i], false), "1", 1, 0.01, 100, 0.1, true});
   }
   for (std::size_t k = 0; k < records_.size(); ++k) {
     const PairRecord& r = records_[k];
@@ -261,6 +273,15 @@ void PairProblem::simulate(std::span<const double> p, std::size_t record) {
   series.key = std::move(key);
 }
 
+void PairProblem::predict(std::span<const double> p, std::span<double> effort) {
+  std::size_t row = 0;
+  for (std::size_t k = 0; k < records_.size(); ++k) {
+    simulate(p, k);
+    const PairSensors s = sensors(p, k);
+    for (const double each : series_[k].effort) effort[row++] = s.bias + s.gain * each;
+  }
+}
+
 void PairProblem::residuals(std::span<const double> p, std::span<const PairRows> rows,
                             std::vector<double>& out) {
   out.clear();
@@ -294,29 +315,17 @@ std::vector<double> PairProblem::settled(std::span<const PairRows> rows, const S
     return true;
   };
   residuals(all, rows, made);
-  put(least_squares(model, made.size(), own, {.difference = smooth}).values);
+  FitProblem problem{.residuals = model,
+                     .count = made.size(),
+                     .parameters = own,
+                     .options = {.difference = smooth}};
+  put(least_squares_within(problem).values);
   return all;
 }
 
-// Returns whether the parameter's scale is unknown before a start is given.
-bool PairProblem::scaled_by_start(std::size_t i) const {
-  return i < physics_.size() &&
-         (physics_[i] == &PairValues::presliding || physics_[i] == &PairValues::fade_time);
-}
-
-// Returns the problem at a start, which sets the scales of those parameters.
-FitProblem PairProblem::at(std::span<const PairRows> rows, const std::vector<double>& start,
-                           const Constraints& constraints, bool correlated) const {
-  FitProblem out{
-      .parameters = parameters_,
-      .options = {.correlated = correlated, .most_steps = most_steps, .difference = smooth},
-      .constraints = constraints};
+FitProblem PairProblem::fit(std::span<const PairRows> rows, const Constraints& constraints) const {
+  FitProblem out{.parameters = parameters_, .options = pair_options, .constraints = constraints};
   for (const PairRows& r : rows) out.count += r.size();
-  for (std::size_t i = 0; i < start.size(); ++i) {
-    Parameter& p = out.parameters[i];
-    p.start = std::clamp(start[i], p.low, p.high);
-    if (scaled_by_start(i)) p.scale = p.start;
-  }
   out.residuals = [own = *this, rows = std::vector<PairRows>(rows.begin(), rows.end()),
                    made = std::vector<double>()](std::span<const double> p,
                                                  std::span<double> r) mutable {
@@ -325,19 +334,6 @@ FitProblem PairProblem::at(std::span<const PairRows> rows, const std::vector<dou
     return true;
   };
   return out;
-}
-
-Refit PairProblem::solve(std::span<const PairRows> rows,
-                         std::span<const std::vector<double>> starts,
-                         const Constraints& constraints, bool correlated) const {
-  std::optional<Refit> best;
-  for (const std::vector<double>& start : starts) {
-    Refit one{at(rows, start, constraints, correlated), {}};
-    one.solution = least_squares(one.problem.residuals, one.problem.count, one.problem.parameters,
-                                 constraints, one.problem.options);
-    if (!best || one.solution.rms < best->solution.rms) best = std::move(one);
-  }
-  return std::move(*best);
 }
 
 using Selection = std::vector<PairRows>;  // one for each recording
@@ -351,8 +347,9 @@ double square_sum(const Solution& s) {
 // A law that was fitted, with its results.
 struct Fitted {
   Fit fit;
+  FitProblem thinned;  // for the thinned recordings, within the bounds that were widened
+  Solution solution;   // for all samples
   std::vector<double> values;
-  Solution solution;
 };
 
 class Pair {
@@ -372,50 +369,41 @@ class Pair {
     }
   }
 
-  Fitted fit(const PairLaw& law) const {
-    Fitted out{.fit = {.model = law.name, .law = law.law, .source = law.source}};
-    try {
-      PairProblem problem(law, fitted_), thinned(law, thinned_);
-      out.fit.refit = std::make_shared<Refit>(
-          thinned.solve(thinned_rows_, thinned.starts(), options_.constraints, true));
-      const std::vector<double>& near = out.fit.refit->solution.values;
-      out.solution = problem.solve(rows_, {{near}}, options_.constraints, true).solution;
-      out.values = out.solution.values;
-      out.fit.parameters = out.solution.estimates;
-      out.fit.fit = scored(problem, out.values, fitted_, rows_);
-      cross_validate(thinned, out.values, out.fit);
-      hold_out(law, problem, out);
-      add_residual_notes(law, problem, out);
-      judge(law, out.fit);
-    } catch (const Refusal& e) {
-      out.fit.refused = e.what();
-    }
+  // Fits the laws, each to thinned recordings first.
+  std::vector<Fitted> fit(std::span<const PairLaw* const> laws) const {
+    std::vector<Candidate> candidates;
+    for (const PairLaw* law : laws) candidates.push_back(candidate_of(*law));
+    Report report{.full_scale = full_scale_};
+    fit_candidates(std::move(candidates), blocks_of_time(), report);
+    std::vector<Fitted> out;
+    for (Fit& fit : report.fits) out.push_back({.fit = std::move(fit)});
+    host::side_by_side(out.size(), [&](std::size_t k) { fit_all_samples(*laws[k], out[k]); });
     return out;
   }
 
   // A delay shifts kinks across samples, so the residuals are rough in it and the slope at the
   // optimum gives too narrow an interval. The interval is widened to all delays of a grid for which
   // the other parameters leave an error that is hardly larger.
-  void widen_delays(const PairLaw& law, Fitted& fitted) const {
-    constexpr double most = 0.1, step = 0.02;
-    PairProblem thinned(law, thinned_);
+  void widen_delays(Fitted& fitted) const {
+    constexpr double step = 0.02;
     for (std::size_t i = 0; i < fitted.values.size(); ++i) {
       Estimate& e = fitted.fit.parameters[i];
       if (!e.name.starts_with("delay") || !e.free || e.at_bound) continue;
-      const Solution best =
-          thinned.solve(thinned_rows_, {{fitted.values}}, options_.constraints, true).solution;
+      FitProblem thinned = fitted.thinned;
+      start_at(fitted.values, thinned);
+      const Solution best = least_squares(thinned);
       const double t = t_quantile(std::max(1, best.freedom));
       const double more = t * t * std::pow(best.standard_deviation, 2) * best.inflation;
-      for (int k = -5; k <= 5; ++k) {
-        const double delay = std::clamp(k * step, -most, most);
+      const auto [low, high] = std::pair(thinned.parameters[i].low, thinned.parameters[i].high);
+      for (double delay = low; delay < high + 0.5 * step; delay += step) {
         if (delay > e.low && delay < e.high) continue;
-        const Constraints frozen = options_.constraints.with_frozen(e.name, delay);
-        const Solution at = thinned.solve(thinned_rows_, {{fitted.values}}, frozen, false).solution;
-        if (square_sum(at) - square_sum(best) > more) continue;
+        thinned.constraints =
+            fitted.thinned.constraints.with_frozen(e.name, std::clamp(delay, low, high));
+        if (square_sum(least_squares(thinned)) - square_sum(best) > more) continue;
         e.low = std::min(e.low, delay);
         e.high = std::max(e.high, delay);
       }
-      e.identifiable = e.high - e.low < most;
+      e.identifiable = e.high - e.low < most_delay;
     }
   }
 
@@ -474,21 +462,66 @@ class Pair {
     return score(r, full_scale_, measured);
   }
 
-  // Predicts each block of time from the others, in all recordings together.
-  void cross_validate(PairProblem& problem, const std::vector<double>& from, Fit& fit) const {
-    std::vector<double> all, some;
-    for (std::size_t b = 0; b < pair_blocks; ++b) {
-      Selection others, block;
-      for (const PairRows& r : thinned_rows_) {
-        others.push_back(pair_block(r, b, false));
-        block.push_back(pair_block(r, b, true));
-      }
-      const Solution s = problem.solve(others, {{from}}, options_.constraints, false).solution;
-      problem.residuals(s.values, block, some);
-      all.insert(all.end(), some.begin(), some.end());
+  Candidate candidate_of(const PairLaw& law) const {
+    Candidate out{.model = law.name,
+                  .law = law.law,
+                  .source = law.source,
+                  .search_tolerance = 0,
+                  .options = pair_options,
+                  .constraints = options_.constraints,
+                  .may_be_at_bounds = true};
+    try {
+      PairProblem problem(law, thinned_);
+      out.parameters = problem.parameters();
+      out.starts = problem.starts();
+      out.predict = [problem](std::span<const double> p, std::span<double> effort) mutable {
+        problem.predict(p, effort);
+        return true;
+      };
+    } catch (const Refusal& e) {
+      out.refused = e.what();
     }
-    fit.cross_validated = score(all, full_scale_);
-    fit.band = band_of(all);
+    return out;
+  }
+
+  // Each block of time is predicted from the others, in all thinned recordings together.
+  Trial blocks_of_time() const {
+    Trial out{.splits = std::vector<Split>(pair_blocks), .cross_validates = true};
+    for (std::size_t k = 0; k < thinned_.size(); ++k) {
+      const std::size_t first = out.measured.size();
+      const auto add = [first](const PairRows& from, std::vector<std::size_t>& to) {
+        for (const std::size_t i : from) to.push_back(first + i);
+      };
+      add(thinned_rows_[k], out.rows);
+      for (std::size_t b = 0; b < pair_blocks; ++b) {
+        add(pair_block(thinned_rows_[k], b, false), out.splits[b].fitted);
+        add(pair_block(thinned_rows_[k], b, true), out.splits[b].held_out);
+      }
+      const std::vector<double>& effort = thinned_[k].effort;
+      out.measured.insert(out.measured.end(), effort.begin(), effort.end());
+    }
+    return out;
+  }
+
+  // Fits all samples, from the solution for the thinned recordings and within its bounds.
+  void fit_all_samples(const PairLaw& law, Fitted& out) const {
+    if (!out.fit.refused.empty()) return;
+    out.thinned = out.fit.refit->problem;
+    try {
+      PairProblem problem(law, fitted_);
+      FitProblem all = problem.fit(rows_, out.thinned.constraints);
+      all.parameters = out.thinned.parameters;
+      start_at(out.fit.refit->solution.values, all);
+      out.solution = least_squares(all);
+      out.values = out.solution.values;
+      out.fit.parameters = out.solution.estimates;
+      out.fit.fit = scored(problem, out.values, fitted_, rows_);
+      hold_out(law, problem, out);
+      add_residual_notes(law, problem, out);
+      judge(law, out.fit);
+    } catch (const Refusal& e) {
+      out.fit.refused = e.what();
+    }
   }
 
   // Scores times of the fitted recordings that are held out, and held-out recordings, of which only
@@ -663,8 +696,7 @@ PairResult identify_pair(std::span<const PairRecord> records, const PairOptions&
       "the pair at other trapped pressures, and faster or slower than it was moved"};
   for (const PairRecord& r : records)
     report.notes.insert(report.notes.end(), r.notes.begin(), r.notes.end());
-  std::vector<Fitted> fitted;
-  for (const PairLaw* law : laws) fitted.push_back(pair.fit(*law));
+  std::vector<Fitted> fitted = pair.fit(laws);
   for (Fitted& f : fitted) {
     // An effect may have size 0, and a bristle may be fully bent at the start.
     std::vector<std::string_view> allowed;
@@ -678,7 +710,7 @@ PairResult identify_pair(std::span<const PairRecord> records, const PairOptions&
 
   Fitted& best = fitted[report.chosen];
   best.fit = report.best();
-  pair.widen_delays(*laws[report.chosen], best);
+  pair.widen_delays(best);
   report.fits[report.chosen] = best.fit;
   out.law = *laws[report.chosen];
   const PairProblem problem(out.law, pair.fitted());

@@ -83,7 +83,12 @@ class TrappedAir {
     }
     for (std::size_t m = 0; law_.leaks && m < muscles_; ++m)
       out.push_back({.name = name("leak", m), .unit = "1/s", .scale = 1e-3});
-    out.push_back({.name = "pressure_delay", .unit = "s", .low = -0.2, .high = 0.2, .scale = 0.01});
+    out.push_back({.name = "pressure_delay",
+                   .unit = "s",
+                   .low = -0.2,
+                   .high = 0.2,
+                   .scale = 0.01,
+                   .may_widen = true});
     for (std::size_t k = 0; k < records_.size(); ++k)
       for (std::size_t m = 0; m < muscles_; ++m) {
         const double p = mean_of(records_[k].pressure[m], rows[k]);

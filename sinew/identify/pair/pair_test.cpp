@@ -1,6 +1,7 @@
 // A pair with known physics is recovered; undetermined values are reported.
 #include "sinew/identify/pair/pair.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -52,6 +53,24 @@ TEST(Pair, IsFoundAgainWithItsDelay) {
   expect_within(found, "presliding", truth.presliding, 0.3);
   expect_within(found, "delay", truth.delay, 0.2);
   expect_within(found, "bias", truth.bias, 0.1);
+}
+
+// The largest delay, 0.1 s, is a guess: it is widened to 0.2 s. A sensor that is later still has
+// its delay frozen there, and its law takes part in the choice.
+TEST(Pair, ADelayBeyondTheLikelyOnesIsFoundOrFrozen) {
+  const auto of = [](double delay) {
+    const TestPair truth{.viscous = 0, .mass = 0, .friction = 0, .delay = delay};
+    return identify_pair({{test_record(truth, 12, false, 5)}}, {.model = "spring"});
+  };
+  const PairResult found = of(0.15), frozen = of(0.3);
+  expect_within(found, "delay", 0.15, 0.2);
+  expect_within(found, "stiffness", 1.5e5, 0.05);
+  const Estimate& delay = parameter(frozen, "delay");
+  EXPECT_EQ(delay.value, 0.2);
+  EXPECT_EQ(delay.known, "frozen at its bound");
+  EXPECT_EQ(frozen.report.best().not_chosen, "");
+  EXPECT_THAT(does_not_show(frozen.report),
+              testing::Contains("the value of delay, at the bound of its range"));
 }
 
 TEST(Pair, ChoosesTheLawThatItWasMadeWith) {

@@ -143,12 +143,12 @@ std::vector<Parameter> parameters_of(const CoilModel& model, const Pulses& c) {
   const double edge = 1.5 * c.sample;
   std::vector<Parameter> p{
       {"edge", "s", 0, -edge, edge, c.sample},
-      {"current", "A", 1.1 * c.largest, 0.2 * c.largest, 20 * c.largest, c.largest},
-      {"rate", "1/s", 1 / rise, 0.02 / rise, 50 / rise, 1 / rise}};
+      {"current", "A", 1.1 * c.largest, 0.2 * c.largest, 20 * c.largest, c.largest, true},
+      {"rate", "1/s", 1 / rise, 0.02 / rise, 50 / rise, 1 / rise, true}};
   if (model.dip) {
     p.push_back({"opening_delay", "s", rise, 2 * c.sample, c.length, rise});
     p.push_back({"motion_time", "s", 0.3 * rise, c.sample, 0.5 * c.length, rise});
-    p.push_back({"dip", "A", c.largest, 0, 20 * c.largest, c.largest});
+    p.push_back({"dip", "A", c.largest, 0, 20 * c.largest, c.largest, true});
   }
   if (model.boost) {
     p.push_back({"boost_time", "s", 0.5 * c.length, 3 * c.sample, c.length, rise});

@@ -131,6 +131,7 @@ std::vector<FreeValue> free_values(const FillModel& model, const Curve& c,
   };
   const double k = conductance_at(c, options.air), range = c.range();
   add("conductance_per_volume", "1/(s Pa)", k, 1e-3 * k, 20 * k, k, &Chamber::conductance);
+  out.back().parameter.may_widen = true;
   if (model.flow == iso6358)
     add("critical_pressure_ratio", "1", 0.3, 0, 0.95, 1, &Chamber::critical_ratio);
   if (model.exponent == 0 && !options.exponent)

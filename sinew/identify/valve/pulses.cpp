@@ -103,7 +103,8 @@ Unknowns unknowns_of(const PulseModel& model, const Record& r, const ValveOption
   const double flow =
       gas::mass_flow_iso6358(1.0, 0.3, r.fills ? 1.2 * top : top, options.air.temperature, 0.0);
   const double k = std::abs(r.rate) / (options.air.gas_constant * options.air.temperature * flow);
-  add({"conductance_per_volume", "1/(s Pa)", k, 1e-3 * k, 20 * k, k}, {&Chamber::conductance});
+  add({"conductance_per_volume", "1/(s Pa)", k, 1e-3 * k, 20 * k, k, true},
+      {&Chamber::conductance});
   add({"opening_delay", "s", 0.1 * r.shortest, 0, r.shortest, 0.1 * r.shortest},
       {nullptr, &PulseCase::opening});
   add({"closing_delay", "s", 0.1 * r.shortest, 0, r.shortest, 0.1 * r.shortest},
@@ -111,9 +112,9 @@ Unknowns unknowns_of(const PulseModel& model, const Record& r, const ValveOption
   add({"critical_pressure_ratio", "1", 0.4, 0, 0.95, 1}, {&Chamber::critical_ratio});
   if (model.exponent == 0)
     add({"polytropic_exponent", "1", 1.2, 1, 5.0 / 3.0, 1}, {&Chamber::exponent});
-  if (model.vents) add({"vent_over_conductance", "1", 1, 1e-3, 20, 1}, {&Chamber::vent});
+  if (model.vents) add({"vent_over_conductance", "1", 1, 1e-3, 20, 1, true}, {&Chamber::vent});
   if (!options.port && r.fills)
-    add({"port_pressure", "Pa abs", 1.2 * top, top - 0.05 * range, 3 * top, range},
+    add({"port_pressure", "Pa abs", 1.2 * top, top - 0.05 * range, 3 * top, range, true},
         {&Chamber::port});
   add({"start_pressure", "Pa abs", r.pressure.front(),
        std::max(1e3, r.pressure.front() - 0.2 * range), r.pressure.front() + 0.2 * range, range},
