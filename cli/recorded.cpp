@@ -287,13 +287,18 @@ ExitCode make(const FilmOptions& options) {
   if (several && !options.machine.empty())
     config::fail({"machine", 0, 0}, "", config::in_quotes(options.machine),
                  "no option: each of several runs has its own machine");
-  const std::vector<std::string> arguments = film_arguments(options);
+  std::vector<std::string> arguments = film_arguments(options);
   run::refuse_to_overwrite(options.out, options.force, {},
                            fs::path(options.out).extension().string());
   run::require_folder_of(options.out);
-  host::continue_as(arguments,
-                    "python3, which makes films, is not on the PATH; try apt-get install python3",
-                    film_page(options, messages.notices()));
+  // Reading a long log takes time, so the script first checks options and programs.
+  constexpr const char* missing =
+      "python3, which makes films, is not on the PATH; try apt-get install python3";
+  arguments.insert(arguments.begin() + 2, "--check");
+  if (const int code = host::exit_code_of(arguments, missing); code != 0)
+    return static_cast<ExitCode>(code);
+  arguments.erase(arguments.begin() + 2);
+  host::continue_as(arguments, missing, film_page(options, messages.notices()));
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ sinew_package(sinew program science ""
 pneumatic actuators (McKibben muscles): actuator, air, valves, sensors,
 controller and body in one loop. Comes with the walking leg of Colbrunn (2000).")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3, python3-sinew, libsinew-dev, sinew-mpi, sinew-comedi, sinew-matlab, www-browser, chromium | chromium-headless-shell, ffmpeg")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3 (>= 3.10), python3-sinew, libsinew-dev, sinew-mpi, sinew-comedi, sinew-matlab, www-browser, chromium | chromium-headless-shell, ffmpeg")
 
 if(TARGET sinew_mpi)
   sinew_package(sinew-mpi mpi science "sinew ${same}, openmpi-bin"

@@ -58,12 +58,20 @@ class Refusal(ValueError):
         return f"{name}: found {found}; expected {expected}" + (f"; try {hint[0]}" if hint else "")
 
 
+class NoDrawing(Refusal):
+    """A run whose page has no drawing; its name is the run's."""
+
+
 def check(file: _Path, options: Options) -> None:
     """Raise Refusal for options that a file with this ending cannot have."""
     kind = Path(file).suffix
     if kind != ".gif" and kind not in _VIDEOS:
         gif = Path(file).with_suffix(".gif")
         raise Refusal("output", f'"{file}"', "a file that ends with .gif, .mp4 or .webm", f'"{gif}"')
+    for name in ("width", "height", "fps"):
+        number = getattr(options, name)
+        if isinstance(number, float) and not number.is_integer():
+            raise Refusal(name, number, "a whole number")
     for name, pixels in (("width", options.width), ("height", options.height)):
         if not 100 <= pixels <= 3840:
             raise Refusal(name, pixels, "100 to 3840 pixels")
@@ -77,6 +85,34 @@ def check(file: _Path, options: Options) -> None:
         raise Refusal("speed", f"{options.speed:.4g}", "0.001 to 1000 seconds of the run per second")
     if not options.start < options.stop:
         raise Refusal("from", f"{options.start:.4g} s", f"a time before {options.stop:.4g} s")
+
+
+def browser_file() -> str:
+    """Return the file of the browser that draws the frames. Raises RuntimeError if there is no such program."""
+    named = os.environ.get("CHROMIUM")
+    found = [file for file in map(shutil.which, [named] if named else _BROWSERS) if file]
+    if found:
+        return found[0]
+    if named:
+        raise RuntimeError(
+            f'CHROMIUM: found "{named}", which is no program; expected the file of Chromium or Chrome, which draws '
+            "the frames; try to unset it: then the one on the PATH is used"
+        )
+    names = ", ".join(_BROWSERS[:-1])
+    raise RuntimeError(
+        f"no browser that draws the frames is on the PATH, neither {names} nor {_BROWSERS[-1]}; try apt-get install "
+        "chromium, or CHROMIUM=FILE in the environment"
+    )
+
+
+def require_programs(file: _Path) -> None:
+    """Raise RuntimeError if a program that makes a file with this ending is missing."""
+    if Path(file).suffix != ".gif" and not shutil.which("ffmpeg"):
+        raise RuntimeError(
+            "ffmpeg, which makes MP4 and WebM, is not on the PATH; try apt-get install ffmpeg, or a "
+            "film.gif, which needs none"
+        )
+    browser_file()
 
 
 def times_of(options: Options, begin: float, end: float) -> List[float]:
@@ -101,13 +137,7 @@ class _Chromium:
     """A browser that runs JavaScript in a page, over two pipes; it listens on no port and needs no network."""
 
     def __init__(self, folder: Path) -> None:
-        program = os.environ.get("CHROMIUM") or next(filter(None, map(shutil.which, _BROWSERS)), None)
-        if not program:
-            raise RuntimeError(
-                "no Chromium, which draws the frames, is on the PATH; try apt-get install chromium, or "
-                "CHROMIUM=<its file>"
-            )
-        self.program, self.words = program, folder / "words"
+        self.program, self.words = browser_file(), folder / "words"
         self.session: Dict[str, str] = {}
         self.number, self.received = 0, b""
         options = [f"--{option}" for option in _BROWSER_OPTIONS] + [f"--user-data-dir={folder / 'profile'}"]
@@ -117,7 +147,7 @@ class _Chromium:
         moved = 'exec "$0" "$@" 3<&0 4>&1 </dev/null >&2'
         with self.words.open("wb") as words:
             self.process = subprocess.Popen(
-                ["/bin/sh", "-c", moved, program, *options, "about:blank"],
+                ["/bin/sh", "-c", moved, self.program, *options, "about:blank"],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=words,
@@ -216,6 +246,7 @@ def _video(browser: _Chromium, times: List[float], file: Path, command: str, wor
         pass  # it has ended, with a code
     except BaseException:
         ffmpeg.kill()
+        ffmpeg.communicate()
         raise
     if ffmpeg.wait() != 0:
         raise RuntimeError(f"{file.with_suffix('')}: ffmpeg could not make it: {_last_words(words)}")
@@ -233,11 +264,7 @@ def make(
     An older file is replaced when the new one is complete. Raises Refusal, and RuntimeError where a program is missing.
     """
     check(file, options)
-    if file.suffix != ".gif" and not shutil.which("ffmpeg"):
-        raise RuntimeError(
-            "ffmpeg, which makes MP4 and WebM, is not on the PATH; try apt-get install ffmpeg, or a "
-            "film.gif, which needs none"
-        )
+    require_programs(file)
     unfinished = file.with_name(file.name + ".unfinished")
     with tempfile.TemporaryDirectory(prefix="sinew-film-", ignore_cleanup_errors=True) as name:
         folder = Path(name)
@@ -249,7 +276,7 @@ def make(
             for i, run in enumerate(runs):
                 if i not in drawn:
                     expected = "a run of a robot or of the test stand whose file has the places of its parts"
-                    raise Refusal(run, "a run without a drawing", expected)
+                    raise NoDrawing(run, "a run without a drawing", expected)
             times = times_of(options, *browser.evaluate("window.sinew_span()"))
             form = {"size": [options.width, options.height], "speed": options.speed}
             form.update(dark=options.dark, still=options.still)
@@ -301,6 +328,7 @@ def film(
     names = [os.fspath(run) for run in runs] if isinstance(runs, (list, tuple)) else [os.fspath(runs)]  # type: ignore
     try:
         check(path, options)
+        require_programs(path)
         return make(film_page(names, path, align, fit_clock, force), names, Path(path), options)
     except Refusal as why:
         refuse(*map(str, why.args))
@@ -312,6 +340,7 @@ def _arguments() -> Tuple[argparse.Namespace, Options]:
     parser.add_argument("file", type=Path)
     parser.add_argument("runs", nargs="+")
     parser.add_argument("--quiet", action="store_true")
+    parser.add_argument("--check", action="store_true", help="only check options and programs, without a page")
     for name, default in Options()._asdict().items():
         if isinstance(default, bool):
             parser.add_argument(f"--{name}", action="store_true")
@@ -331,11 +360,17 @@ def main() -> int:
             print(f"\r{done} of {frames} frames{end}", end="", file=sys.stderr, flush=True)
 
     try:
+        if given.check:
+            check(given.file, options)
+            require_programs(given.file)
+            return 0
         frames = make(sys.stdin.buffer.read().decode(), given.runs, given.file, options, show)
     except Refusal as why:
-        of_option = why.args[0] not in given.runs
-        print(f"--{why}" if of_option else why, file=sys.stderr)
-        return 2 if of_option else 1
+        if not isinstance(why, NoDrawing):
+            print(f"--{why}", file=sys.stderr)
+            return 2
+        print(why, file=sys.stderr)
+        return 1
     except (RuntimeError, OSError) as why:
         print(why, file=sys.stderr)
         return 1

@@ -8,10 +8,11 @@ import tempfile
 import unittest
 from pathlib import Path
 from typing import Any, List
+from unittest import mock
 
 import sinew
 from common import Refusals
-from sinew._film import Options, Refusal, check
+from sinew._film import Options, Refusal, _video, check
 
 
 def missing_for_films() -> str:
@@ -91,13 +92,19 @@ class Figures(Refusals):
         with self.assertRaisesRegex(ValueError, "names or overlay"):
             sinew.figures([self.run_folder, self.run_folder], out)
         with self.assertRaisesRegex(sinew.InputError, "gif, .mp4 or .webm"):
-            sinew.film(self.run_folder, out / "walk.avi")
-        with self.assertRaisesRegex(ValueError, "found one run; expected several"):
-            sinew.film(self.run_folder, out / "walk.gif", align="correlation")
-        with self.assertRaisesRegex(ValueError, 'found "luck"; expected start, sequence, event or correlation'):
-            sinew.film([self.run_folder, self.run_folder], out / "walk.gif", align="luck")
-        with self.assertRaisesRegex(ValueError, "found none"):
-            sinew.film([], out / "walk.gif")
+            sinew.film(out / "nothing", out / "walk.avi")
+        with self.assertRaisesRegex(sinew.InputError, "width: found 200.5; expected a whole number"):
+            sinew.film(self.run_folder, out / "walk.gif", width=200.5)  # type: ignore[arg-type]
+        with mock.patch.dict(os.environ, CHROMIUM="nowhere"):
+            with self.assertRaisesRegex(RuntimeError, 'CHROMIUM: found "nowhere", which is no program'):
+                sinew.film(self.run_folder, out / "walk.gif")
+        with mock.patch.dict(os.environ, CHROMIUM="/bin/true"):
+            with self.assertRaisesRegex(ValueError, "found one run; expected several"):
+                sinew.film(self.run_folder, out / "walk.gif", align="correlation")
+            with self.assertRaisesRegex(ValueError, 'found "luck"; expected start, sequence, event or correlation'):
+                sinew.film([self.run_folder, self.run_folder], out / "walk.gif", align="luck")
+            with self.assertRaisesRegex(ValueError, "found none"):
+                sinew.film([], out / "walk.gif")
         self.assertFalse(os.path.exists(out))
 
     def test_a_film_is_refused_by_the_name_of_what_is_wrong(self) -> None:
@@ -121,6 +128,13 @@ class Figures(Refusals):
         self.assertEqual(refusal("a.gif", width=881), "")
         for speed in (0.0, -1.0, 1e9, math.nan):
             self.assertRegex(refusal("a.gif", speed=speed), "^speed: ")
+
+    def test_the_maker_of_a_video_is_ended_with_its_film(self) -> None:
+        browser = mock.Mock(**{"evaluate.side_effect": RuntimeError("the browser ended")})
+        with tempfile.TemporaryDirectory() as folder, self.assertRaisesRegex(RuntimeError, "the browser ended"):
+            list(_video(browser, [0.0], Path("a.mp4"), "tail -f /dev/null", Path(folder) / "words"))
+        with self.assertRaises(ChildProcessError):
+            os.waitpid(-1, os.WNOHANG)
 
     @unittest.skipIf(missing_for_films(), missing_for_films())
     def test_a_film_is_a_gif_of_so_many_frames(self) -> None:

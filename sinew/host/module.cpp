@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <sys/mman.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -69,6 +70,25 @@ void continue_as(std::vector<std::string> words, const std::string& if_missing,
   ::execvp(arguments[0], arguments.data());
   if (errno == ENOENT) throw std::runtime_error(if_missing);
   throw std::system_error(errno, std::generic_category(), words[0] + ": cannot be started");
+}
+
+int exit_code_of(const std::vector<std::string>& words, const std::string& if_missing) {
+  constexpr int not_started = 127;
+  std::fflush(stdout);
+  const pid_t child = ::fork();
+  if (child < 0) throw std::system_error(errno, std::generic_category(), words[0]);
+  if (child == 0) {
+    try {
+      continue_as(words, "");
+    } catch (const std::exception&) {
+      ::_exit(not_started);
+    }
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+  if (!WIFEXITED(status)) return 1;
+  if (WEXITSTATUS(status) == not_started) throw std::runtime_error(if_missing);
+  return WEXITSTATUS(status);
 }
 
 }  // namespace sinew::host

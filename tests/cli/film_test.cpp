@@ -167,9 +167,12 @@ TEST(Film, OfAComparisonRefusesARunThatCannotBeDrawn) {
 TEST(Film, OfATimeThatTheRunDoesNotHaveIsRefused) {
   if (!can_film()) GTEST_SKIP() << "no chromium, or built without the page";
   const Workspace w;
-  run(w, bench, "run");
-  EXPECT_THAT(w.sinew({"film", "run", "-o", "a.gif", "--from", "1000 s"}).err,
-              AllOf(StartsWith("--from: "), HasSubstr("a time of the run")));
+  for (const char* folder : {"run", "from"}) {  // the name of the option, too
+    run(w, bench, folder);
+    const Result refused = w.sinew({"film", folder, "-o", "a.gif", "--from", "1000 s"});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, AllOf(StartsWith("--from: "), HasSubstr("a time of the run")));
+  }
 }
 
 }  // namespace
