@@ -117,14 +117,17 @@ bool could_be_shipped(const std::string& word) {
 
 // Returns the words of a line with names that help and `sinew list` show, such as
 // "experiments/walk-test-1.toml", as paths of Sinew's own files, where the current folder has no
-// file of that name. A file that a command writes keeps its name: what follows --output, --out or
-// -o, and the words of `new` and `migrate`.
+// file of that name. A file that a command writes keeps its name: the value of an option in
+// `written`, and the words of `new` and `migrate`.
 std::vector<std::string> with_shipped_files(std::vector<std::string> words) {
   constexpr std::string_view kept[] = {"new", "migrate", "help", "completion"};
+  constexpr std::string_view written[] = {
+      "-o",        "--output", "--out",          "--report",       "--residuals",   "--runs",
+      "--results", "--best",   "--save-mapping", "--actuator-out", "--predict-dat", "--template"};
   if (words.empty() || std::ranges::find(kept, words[0]) != std::end(kept)) return words;
   for (std::size_t i = 1; i < words.size(); ++i) {
     const std::string& before = words[i - 1];
-    if (before == "-o" || before == "--output" || before == "--out" || !could_be_shipped(words[i]))
+    if (std::ranges::find(written, before) != std::end(written) || !could_be_shipped(words[i]))
       continue;
     try {
       std::error_code none;
