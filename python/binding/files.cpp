@@ -23,8 +23,8 @@ py::dict migrate(const py::object& path, const py::object& folder, bool write) {
   out["was"] = done.was;
   out["is"] = done.is;
   out["changes"] = done.changes;
-  out["written"] = done.written;
-  out["kept"] = done.kept;
+  out["written"] = write ? done.written : "";
+  out["kept"] = write ? done.kept : "";
   return out;
 }
 
@@ -73,7 +73,7 @@ void bind_files(py::module_& m) {
         "Brings a TOML file of an older format to today's; comments and layout stay. The old file\n"
         "is kept as FILE.bak, or the new one goes into `folder`; nothing is overwritten. Returns\n"
         "what it was and is, each change with its line, and where new and old file are. Without\n"
-        "`write` it only reports. Raises InputError.");
+        "`write` it only reports, and names no file. Raises InputError.");
   m.def("keys", &keys, py::kw_only(), py::arg("kind") = "",
         "Returns the keys of files that have all of the words in their path, description or\n"
         "choices: a dict each, with `kind`, `key`, `type`, `unit`, `default`, `doc` and more. A\n"

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <stdexcept>
 
+#include "sinew/units/letters.h"
+
 namespace sinew::config {
 
 namespace {
@@ -130,6 +132,16 @@ std::string in_words(const KeyChange& change, std::string_view path) {
   if (change.to.empty()) return fmt::format("{}; it is gone {}", change.why, since);
   const std::string_view table = path.substr(0, path.rfind('.') + 1);
   return fmt::format("{}{}, which replaces it {}", table, change.to, since);
+}
+
+std::string with_present_key(const std::string& setting, const Changes& changes) {
+  const std::size_t equals = setting.find('=');
+  if (equals == setting.npos) return setting;
+  const std::string key(units::trimmed(std::string_view(setting).substr(0, equals)));
+  const KeyChange* change = removed_key(key, changes);
+  if (!change || change->to.empty()) return setting;
+  return fmt::format("{}{}{}", key.substr(0, key.rfind('.') + 1), change->to,
+                     setting.substr(equals));
 }
 
 std::string_view likely_kind(const Node& root) {

@@ -68,6 +68,11 @@ const KeyChange* removed_key(std::string_view path, const Changes& changes);
 // `path` is the key that was found.
 std::string in_words(const KeyChange& change, std::string_view path);
 
+// Returns "KEY=VALUE" of a plan or a tuning with the key that replaced KEY; unchanged if none did.
+// Such texts name keys of an experiment, whose format they do not state.
+std::string with_present_key(const std::string& setting,
+                             const Changes& changes = config::changes());
+
 // Returns the likely kind of a file without a format, found from keys that only this kind has;
 // empty if no such key is found.
 std::string_view likely_kind(const Node& root);

@@ -72,7 +72,7 @@ void write(const std::string& old_text, const std::string& text, const Migration
 }  // namespace
 
 Migration migrate(const std::string& path, const MigrateOptions& options) {
-  Migration out{.file = path};
+  Migration out{.file = path, .is_dry = !options.write};
   const fs::path file(path);
   if (file.extension() == ".dat") {
     leave_alone(file, out);
@@ -95,14 +95,17 @@ std::string text_of(const Migration& m) {
   if (m.changes.empty()) return fmt::format("{}: {} is the newest; left alone\n", m.file, m.is);
   for (const std::string& change : m.changes) out += fmt::format("{}: {}\n", m.file, change);
   const std::string to = m.written == m.file ? "" : " in " + m.written;
-  const std::string old = m.kept.empty() ? "" : "; the old one is " + m.kept;
-  return out + fmt::format("{}: is {} now{}{}\n", m.file, m.is, to, old);
+  const std::string old =
+      m.kept.empty() ? ""
+                     : fmt::format("; the old one {} {}", m.is_dry ? "would be" : "is", m.kept);
+  return out + fmt::format("{}: {}{}{}{}\n", m.file, m.is_dry ? "would be " : "is ", m.is,
+                           m.is_dry ? to : " now" + to, old);
 }
 
 Json json_of(const Migration& m) {
   Json out{{"file", m.file}, {"was", m.was}, {"is", m.is}, {"changes", m.changes}};
-  if (!m.written.empty()) out["written"] = m.written;
-  if (!m.kept.empty()) out["kept"] = m.kept;
+  if (!m.written.empty() && !m.is_dry) out["written"] = m.written;
+  if (!m.kept.empty() && !m.is_dry) out["kept"] = m.kept;
   if (!m.reason.empty()) out["reason"] = m.reason;
   return out;
 }

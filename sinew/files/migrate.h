@@ -24,6 +24,7 @@ struct Migration {
   std::string was, is;               // old and new format: "sinew.robot/1"; `was` may be empty
   std::vector<std::string> changes;  // sentences with lines; empty: the file is left alone
   std::string written, kept;         // new file, and new place of the old one; empty: neither
+  bool is_dry = false;               // neither file is written; these are the places for them
   std::string reason;                // why a file without a Sinew format is left alone
 };
 

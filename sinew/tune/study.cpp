@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "sinew/config/changes.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
@@ -27,6 +28,9 @@ Study load_study(const std::string& path) {
   reader.text({.name = "format", .doc = "kind and version"}, format);
   fields(reader, out);
   reader.finish();
+  for (const auto list : {&Study::set, &Study::vary, &Study::range})
+    for (std::string& text : out.*list) text = config::with_present_key(text);
+  out.largest = config::with_present_key(out.largest);
 
   const config::Origin* named = config::find_origin(reader.origins(), "experiment");
   const std::filesystem::path folder = std::filesystem::path(named->where.file).parent_path();

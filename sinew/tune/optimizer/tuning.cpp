@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "sinew/config/changes.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/node.h"
 #include "sinew/config/quantity.h"
@@ -265,6 +266,12 @@ TuningFile load_tuning_file(const std::string& path) {
   fields(reader, out);
   reader.finish();
   out.origins = reader.origins();
+  const auto present = [](std::vector<std::string>& texts) {
+    for (std::string& text : texts) text = config::with_present_key(text);
+  };
+  for (const auto list : {&TuningFile::set, &TuningFile::tune, &TuningFile::spread})
+    present(out.*list);
+  for (Case& one : out.cases) present(one.sets);
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   const auto beside_it = [&](std::string& file) {
     if (!file.empty()) file = (folder / file).lexically_normal().string();
