@@ -26,7 +26,7 @@ void route_fields(Visitor& v, robot::Joint& joint) {
             .max = 6.283185307179586,
             .doc = "where its muscles have their mount_length"},
            joint.rest_angle);
-  v.choice({.name = "flexion", .doc = "what a shorter flexor does to the angle"}, joint.flexion,
+  v.choice({.name = "flexion", .doc = "effect of a shorter flexor on the angle"}, joint.flexion,
            {{"raises angle", Flexion::raises_angle}, {"lowers angle", Flexion::lowers_angle}});
   v.number({.name = "moment_arm", .unit = "m", .min = 1e-4, .doc = "radius of the cam"},
            joint.moment_arm);

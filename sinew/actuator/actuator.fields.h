@@ -26,7 +26,7 @@ void fields(Visitor& v, Braid& braid) {
             .unit = "m",
             .min = 1e-4,
             .max = 10,
-            .why = "a braid from a cricket's size to an elephant's",
+            .why = "no braid is shorter or longer",
             .optional = true,
             .doc = "b, length of one thread [17]; or give trapezoids"},
            braid.thread_length);
@@ -40,7 +40,9 @@ void fields(Visitor& v, Braid& braid) {
            braid.turns);
 
   double lengthwise = 0, around = 0, side = 0;
-  v.group({.name = "trapezoids", .optional = true, .doc = "counted on the opened mesh, figure 2-4"},
+  v.group({.name = "trapezoids",
+           .optional = true,
+           .doc = "count of the opened mesh, thesis figure 2-4"},
           [&](auto& g) {
             const auto counted = [&](std::string_view name, std::string_view doc, double& value) {
               g.number({.name = name,
@@ -52,15 +54,15 @@ void fields(Visitor& v, Braid& braid) {
                         .doc = doc},
                        value);
             };
-            counted("lengthwise", "A [14]", lengthwise);
-            counted("around", "B [15]", around);
+            counted("lengthwise", "A, trapezoids along the mesh [14]", lengthwise);
+            counted("around", "B, trapezoids around the mesh [15]", around);
             g.number({.name = "side",
                       .unit = "m",
                       .min = 0,
                       .max = 1,
                       .least = 1e-6,
                       .why = "a trapezoid can be seen",
-                      .doc = "l, of one trapezoid"},
+                      .doc = "l, side of one trapezoid"},
                      side);
           });
   const bool mesh = lengthwise > 0 && around > 0 && side > 0;
@@ -94,7 +96,7 @@ void fields(Visitor& v, Effectiveness& e) {
   std::vector<double> coefficients{e.c0, e.c1, e.c2};
   v.polynomial({.name = "polynomial",
                 .unit = "1",
-                .doc = "c0 + c1 p + c2 p^2, share of the ideal tension that arrives [30]"},
+                .doc = "c0 + c1 p + c2 p^2, effective share of the ideal tension [30]"},
                coefficients, "Pa");
   if (coefficients.size() > 3) {
     units::report_conflict(v, "polynomial", std::to_string(coefficients.size()) + " coefficients",
@@ -106,7 +108,8 @@ void fields(Visitor& v, Effectiveness& e) {
   e.c2 = coefficients[2];
 
   v.choice(
-      {.name = "argument", .doc = "the polynomial's p: gauge by [30], absolute by appendix A"},
+      {.name = "argument",
+       .doc = "pressure p of the polynomial: gauge in [30], absolute in appendix A"},
       e.argument,
       {{"gauge", Effectiveness::Argument::gauge}, {"absolute", Effectiveness::Argument::absolute}});
   v.number({.name = "scale",
@@ -115,14 +118,14 @@ void fields(Visitor& v, Effectiveness& e) {
             .max = 2,
             .why = "no more than all of the ideal tension arrives, by a wide margin",
             .optional = true,
-            .doc = "times the polynomial"},
+            .doc = "factor of the polynomial"},
            e.scale);
 
   std::vector<double> valid{e.valid_from, e.valid_to};
   v.numbers({.name = "valid",
              .unit = "Pa gauge",
              .optional = true,
-             .doc = "lowest and highest pressure that were fitted; held constant outside"},
+             .doc = "lowest and highest fitted pressure; constant outside"},
             valid);
   if (valid.size() != 2 || !(valid[0] < valid[1])) {
     units::report_conflict(v, "valid", "no range of pressures", "the lowest and the highest",
@@ -131,68 +134,49 @@ void fields(Visitor& v, Effectiveness& e) {
   valid.resize(2);
   e.valid_from = valid[0];
   e.valid_to = valid[1];
-  v.number({.name = "threshold",
-            .unit = "Pa gauge",
-            .min = 0,
-            .optional = true,
-            .doc = "that the bladder takes before it reaches the mesh; not in the thesis"},
-           e.threshold);
+  units::optional_amount(v, "threshold", "Pa gauge",
+                         "gauge pressure at which the bladder touches the mesh; not in the thesis",
+                         e.threshold);
   check_share(v, e);
 }
 
 template <class Visitor>
 void fields(Visitor& v, LongEnd& end) {
-  v.number({.name = "length",
-            .unit = "m",
-            .min = 0,
-            .doc = "L_max, from which the threads stretch [32]"},
-           end.length);
-  v.number({.name = "stiffness", .unit = "N/m", .min = 0, .doc = "K_braid [32]"}, end.stiffness);
-  v.number({.name = "damping", .unit = "N s/m", .min = 0, .doc = "C_braid [35]"}, end.damping);
+  units::amount(v, "length", "m", "L_max, length from which the threads stretch [32]", end.length);
+  units::amount(v, "stiffness", "N/m", "K_braid, stiffness of the threads [32]", end.stiffness);
+  units::amount(v, "damping", "N s/m", "C_braid, damping of the threads [35]", end.damping);
 }
 
 template <class Visitor>
 void fields(Visitor& v, ShortEnd& end) {
   v.choice({.name = "law",
-            .doc = "below b/sqrt 3: an end stop, no tension as printed in [31], or the 5 F + 10 "
-                   "F_damping that appendix A has commented out"},
+            .doc = "stop: an end stop; zero: no tension, as printed in [31]; empirical: 5 F + 10 "
+                   "F_damping, from appendix A"},
            end.law,
            {{"stop", ShortEnd::Law::stop},
             {"zero", ShortEnd::Law::zero},
             {"empirical", ShortEnd::Law::empirical}});
-  v.number({.name = "stiffness",
-            .unit = "N/m",
-            .min = 0,
-            .optional = true,
-            .doc = "of the stop, in compression"},
-           end.stiffness);
-  v.number({.name = "damping", .unit = "N s/m", .min = 0, .optional = true, .doc = "of the stop"},
-           end.damping);
+  units::optional_amount(v, "stiffness", "N/m", "stiffness of the stop in compression",
+                         end.stiffness);
+  units::optional_amount(v, "damping", "N s/m", "damping of the stop", end.damping);
 }
 
 template <class Visitor>
 void fields(Visitor& v, Loss& loss) {
-  v.number({.name = "viscous", .unit = "N s/m", .min = 0, .doc = "c [33]"}, loss.viscous);
-  v.number({.name = "coulomb_length",
-            .unit = "m",
-            .min = 0,
-            .doc = "Q = mu N/k, dry friction per stiffness [33]"},
-           loss.coulomb_length);
+  units::amount(v, "viscous", "N s/m", "c, viscous loss [33]", loss.viscous);
+  units::amount(v, "coulomb_length", "m", "Q = mu N/k, dry friction per stiffness [33]",
+                loss.coulomb_length);
   v.choice({.name = "coulomb_scale",
-            .doc = "the k in Q k: secant [34], of the sealed muscle [45], or constant"},
+            .doc = "stiffness k in Q k: secant [34], of the sealed muscle [45], or constant"},
            loss.coulomb_scale,
            {{"secant", Loss::Scale::secant},
             {"sealed", Loss::Scale::sealed},
             {"constant", Loss::Scale::constant}});
-  v.number({.name = "coulomb_stiffness",
-            .unit = "N/m",
-            .min = 0,
-            .optional = true,
-            .doc = "k of coulomb_scale = \"constant\""},
-           loss.coulomb_stiffness);
+  units::optional_amount(v, "coulomb_stiffness", "N/m", "k if coulomb_scale = \"constant\"",
+                         loss.coulomb_stiffness);
   v.flag({.name = "stick",
           .optional = true,
-          .doc = "false: friction by the sign of the speed as printed; it creeps under load"},
+          .doc = "false: friction by the sign of the speed, as printed; it creeps under load"},
          loss.stick);
   if (loss.coulomb_scale == Loss::Scale::constant && !(loss.coulomb_stiffness > 0)) {
     units::report_conflict(v, "coulomb_scale", "\"constant\" without a stiffness",
@@ -202,37 +186,36 @@ void fields(Visitor& v, Loss& loss) {
 
 template <class Visitor>
 void fields(Visitor& v, Bladder& bladder) {
-  v.number({.name = "stiffness", .unit = "N/m", .min = 0, .doc = "in parallel; not in the thesis"},
-           bladder.stiffness);
-  v.number({.name = "rest_length", .unit = "m", .min = 0, .optional = true, .doc = "no tension"},
-           bladder.rest_length);
+  units::amount(v, "stiffness", "N/m", "k_1, in parallel with the braid; not in the thesis",
+                bladder.stiffness);
+  units::optional_amount(v, "rest_length", "m", "L_r, length without tension", bladder.rest_length);
   v.number({.name = "quadratic",
             .unit = "N/m2",
             .optional = true,
-            .doc = "k2, tension by the square of the stretch"},
+            .doc = "k_2, tension per squared elongation"},
            bladder.quadratic);
-  v.number({.name = "cubic", .unit = "N/m3", .optional = true, .doc = "k3, by its cube"},
-           bladder.cubic);
-  v.number({.name = "saturating_tension",
-            .unit = "N",
-            .min = 0,
+  v.number({.name = "cubic",
+            .unit = "N/m3",
             .optional = true,
-            .doc = "S, what is lost over the first contraction"},
-           bladder.saturating_tension);
+            .doc = "k_3, tension per cubed elongation"},
+           bladder.cubic);
+  units::optional_amount(v, "saturating_tension", "N",
+                         "S, tension that is lost over the first contraction",
+                         bladder.saturating_tension);
   v.number({.name = "saturation_length",
             .unit = "m",
             .min = 0,
             .least = 1e-6,
-            .why = "what is lost over less than a micrometre is not there",
+            .why = "a shorter one has no effect",
             .optional = true,
-            .doc = "lambda, the way over which S is lost"},
+            .doc = "lambda, contraction over which S is lost"},
            bladder.saturation_length);
 
   std::vector<double> valid{bladder.valid_from, bladder.valid_to};
   v.numbers({.name = "valid",
              .unit = "m",
              .optional = true,
-             .doc = "shortest and longest length that were fitted; the bladder is held outside"},
+             .doc = "shortest and longest fitted length; the tension is constant outside"},
             valid);
   if (valid.size() != 2 || !(valid[0] < valid[1])) {
     units::report_conflict(v, "valid", "no range of lengths", "the shortest and the longest",
@@ -249,34 +232,34 @@ void fields(Visitor& v, Bladder& bladder) {
 
 template <class Visitor>
 void fields(Visitor& v, Caps& caps) {
-  v.number({.name = "length", .unit = "m", .min = 0, .doc = "d, both ends; the braid has the rest"},
-           caps.length);
+  units::amount(v, "length", "m", "d, both ends together; the braid has the rest of the length",
+                caps.length);
 }
 
 template <class Visitor>
 void fields(Visitor& v, Taper& taper) {
-  v.number({.name = "gain", .unit = "1", .min = 0.1, .max = 10, .doc = "k, of the contraction"},
+  v.number({.name = "gain",
+            .unit = "1",
+            .min = 0.1,
+            .max = 10,
+            .doc = "kappa_0, factor of the contraction"},
            taper.gain);
   v.number({.name = "extra_gain",
             .unit = "1",
             .min = 0,
             .max = 10,
             .optional = true,
-            .doc = "k_low, added without pressure"},
+            .doc = "kappa_low, added to the factor without pressure"},
            taper.extra_gain);
   v.number({.name = "extra_pressure",
             .unit = "Pa diff",
             .min = 0,
             .least = 1,
-            .why = "what goes over less than a pascal is not there",
+            .why = "a smaller one has no effect",
             .optional = true,
-            .doc = "P_low, over which k_low goes"},
+            .doc = "P_low, pressure over which kappa_low disappears"},
            taper.extra_pressure);
-  v.number({.name = "rest_length",
-            .unit = "m",
-            .min = 0,
-            .doc = "L_0, from which the contraction counts"},
-           taper.rest_length);
+  units::amount(v, "rest_length", "m", "L_0, length without contraction", taper.rest_length);
   if (taper.extra_gain != 0 && !(taper.extra_pressure > 0)) {
     units::report_conflict(v, "extra_gain", "no pressure over which it goes",
                            "an extra_pressure above zero with it");
@@ -285,15 +268,14 @@ void fields(Visitor& v, Taper& taper) {
 
 template <class Visitor>
 void fields(Visitor& v, Wall& wall) {
-  v.number({.name = "thickness", .unit = "m", .min = 0, .doc = "t, of tube and mesh together"},
-           wall.thickness);
+  units::amount(v, "thickness", "m", "h_w, thickness of tube and mesh together", wall.thickness);
 }
 
 template <class Visitor>
 void fields(Visitor& v, AirVolume& air) {
   v.number({.name = "offset",
             .unit = "m3",
-            .doc = "V_a, added to the volume of the braid; below 0: a thick wall or an insert"},
+            .doc = "V_a, added to the braid's volume; below 0: a thick wall or an insert"},
            air.offset);
 }
 
@@ -312,80 +294,49 @@ void ends(Visitor& v, const char* name, const char* unit, const char* doc, const
 
 template <class Visitor>
 void fields(Visitor& v, Prediction& p) {
-  v.number({.name = "rest_length", .unit = "m", .min = 0, .doc = "L_0 of the muscle"},
-           p.rest_length);
+  units::amount(v, "rest_length", "m", "L_0 of the measured muscle", p.rest_length);
   v.numbers(
-      {.name = "lengths", .unit = "m", .min = 0, .doc = "that were measured, in ascending order"},
+      {.name = "lengths", .unit = "m", .min = 0, .doc = "measured lengths, in ascending order"},
       p.lengths);
   if (!std::ranges::is_sorted(p.lengths))
     units::report_conflict(v, "lengths", "lengths in another order",
                            "lengths from the shortest to the longest",
                            R"(["80 mm", "90 mm", "100 mm"])");
-  ends(v, "pressures", "Pa gauge", "lowest and highest pressure that were measured",
+  ends(v, "pressures", "Pa gauge", "lowest and highest measured pressure",
        R"(["0 kPa gauge", "600 kPa gauge"])", p.lowest, p.highest);
-  v.number({.name = "inside_68",
-            .unit = "N",
-            .min = 0,
-            .doc = "two of three measured forces lie as close to the law's, at these lengths and "
-                   "between these pressures"},
-           p.inside_68);
-  v.number({.name = "inside_95", .unit = "N", .min = 0, .doc = "19 of 20 lie as close"},
-           p.inside_95);
-  v.number({.name = "between_68",
-            .unit = "N",
-            .min = 0,
-            .optional = true,
-            .doc = "the same halfway in the widest gap between two lengths; 0: not known"},
-           p.between_68);
-  v.number({.name = "between_95",
-            .unit = "N",
-            .min = 0,
-            .optional = true,
-            .doc = "19 of 20 there; 0: not known"},
-           p.between_95);
-  v.number({.name = "beyond_68",
-            .unit = "N",
-            .min = 0,
-            .optional = true,
-            .doc = "the same a fifth of their range beyond the lengths; 0: not known"},
-           p.beyond_68);
-  v.number({.name = "beyond_95",
-            .unit = "N",
-            .min = 0,
-            .optional = true,
-            .doc = "19 of 20 there; 0: not known"},
-           p.beyond_95);
-  v.number({.name = "above_68",
-            .unit = "N",
-            .min = 0,
-            .optional = true,
-            .doc = "the same a fifth of their range beyond the pressures; 0: not known"},
-           p.above_68);
-  v.number({.name = "above_95",
-            .unit = "N",
-            .min = 0,
-            .optional = true,
-            .doc = "19 of 20 there; 0: not known"},
-           p.above_95);
-  v.number(
-      {.name = "other_68",
-       .unit = "1",
-       .min = 0,
-       .optional = true,
-       .doc = "of the greatest force: the same for muscles of other rest lengths; 0: not known"},
+  // Half-widths about the law that contain 68 % and 95 % of the measured forces.
+  units::amount(v, "inside_68", "N",
+                "half-width (68 %) at these lengths and between these pressures", p.inside_68);
+  units::amount(v, "inside_95", "N",
+                "half-width (95 %) at these lengths and between these pressures", p.inside_95);
+  units::optional_amount(v, "between_68", "N",
+                         "half-width (68 %) halfway in the widest gap between lengths; 0: unknown",
+                         p.between_68);
+  units::optional_amount(v, "between_95", "N",
+                         "half-width (95 %) halfway in the widest gap between lengths; 0: unknown",
+                         p.between_95);
+  units::optional_amount(v, "beyond_68", "N",
+                         "half-width (68 %) a fifth of their range beyond the lengths; 0: unknown",
+                         p.beyond_68);
+  units::optional_amount(v, "beyond_95", "N",
+                         "half-width (95 %) a fifth of their range beyond the lengths; 0: unknown",
+                         p.beyond_95);
+  units::optional_amount(v, "above_68", "N",
+                         "half-width (68 %) a fifth of their range above the pressures; 0: unknown",
+                         p.above_68);
+  units::optional_amount(v, "above_95", "N",
+                         "half-width (95 %) a fifth of their range above the pressures; 0: unknown",
+                         p.above_95);
+  units::optional_amount(
+      v, "other_68", "1",
+      "half-width (68 %) at other rest lengths, share of the largest force; 0: unknown",
       p.other_68);
-  v.number({.name = "other_95",
-            .unit = "1",
-            .min = 0,
-            .optional = true,
-            .doc = "19 of 20 there; 0: not known"},
-           p.other_95);
-  v.number({.name = "other_reach",
-            .unit = "1",
-            .min = 0,
-            .optional = true,
-            .doc = "|ln(L/L_0)| over which muscles of other rest lengths L were tried"},
-           p.other_reach);
+  units::optional_amount(
+      v, "other_95", "1",
+      "half-width (95 %) at other rest lengths, share of the largest force; 0: unknown",
+      p.other_95);
+  units::optional_amount(v, "other_reach", "1",
+                         "|ln(L/L_0)| up to which other rest lengths L were tested", p.other_reach);
   if ((p.rest_length > 0 || p.inside_95 > 0) && p.lengths.empty())
     units::report_conflict(v, "lengths", "none", "at least the one that was measured",
                            R"(["80 mm", "90 mm", "100 mm"])");
@@ -397,7 +348,7 @@ void fields(Visitor& v, Series& series) {
             .unit = "m/N",
             .min = 0,
             .max = 0.01,
-            .doc = "C, what both ends together give way by; 0: nothing"},
+            .doc = "C_s, elongation of both ends together per tension; 0: rigid ends"},
            series.compliance);
 }
 
@@ -407,45 +358,41 @@ void fields(Visitor& v, Toe& toe) {
             .unit = "N",
             .min = 0,
             .max = 1e4,
-            .doc = "s, about which a slack muscle straightens and begins to pull; 0: at once"},
+            .doc = "F_toe, tension about which a slack muscle straightens; 0: it pulls at once"},
            toe.tension);
 }
 
 template <class Visitor>
 void fields(Visitor& v, Hysteresis& h) {
-  v.number({.name = "half_width",
-            .unit = "Pa diff",
-            .min = 0,
-            .doc = "a, half the gap of pressure between filling and venting at one length"},
-           h.half_width);
+  units::amount(v, "half_width", "Pa diff",
+                "w_0, half the pressure gap between filling and venting at one length",
+                h.half_width);
   v.number({.name = "width_per_pressure",
             .unit = "1",
             .min = 0,
             .max = 0.9,
             .optional = true,
-            .doc = "b, what half_width grows by per gauge pressure"},
+            .doc = "w_P, growth of half_width per gauge pressure"},
            h.width_per_pressure);
-  v.number({.name = "width_per_contraction",
-            .unit = "Pa diff",
-            .min = 0,
-            .optional = true,
-            .doc = "d, what half_width grows by per contraction, counted from long_end.length"},
-           h.width_per_contraction);
+  units::optional_amount(
+      v, "width_per_contraction", "Pa diff",
+      "w_eps, growth of half_width per contraction, which counts from long_end.length",
+      h.width_per_contraction);
   v.number({.name = "width_per_tension",
             .unit = "1",
             .min = 0,
             .max = 0.4,
             .optional = true,
-            .doc = "share of the tension by which filling pulls less, and venting more"},
+            .doc = "w_F, share of the tension by which filling pulls less and venting more"},
            h.width_per_tension);
   v.number({.name = "volume_pressure",
             .unit = "Pa diff",
             .min = 0,
             .least = 1,
-            .why = "less than a pascal turns nothing",
+            .why = "a smaller one has no effect",
             .optional = true,
-            .doc = "K, pressure that turns the friction as the greatest volume does; 0: length "
-                   "does not turn it"},
+            .doc = "P_V, pressure with the effect of the greatest volume on the friction; 0: the "
+                   "length has none"},
            h.volume_pressure);
 }
 
@@ -462,13 +409,13 @@ void fields(Visitor& v, Creep& creep) {
              .unit = "1",
              .min = 0,
              .max = 1,
-             .doc = "c, of the tension, that comes late; one or two elements"},
+             .doc = "chi, share of the tension that is delayed; one or two elements"},
             share);
   v.numbers({.name = "time",
              .unit = "s",
              .min = 1e-3,
-             .why = "what comes within a millisecond does not come late",
-             .doc = "tau of each element"},
+             .why = "a shorter delay has no effect",
+             .doc = "time constant of each element"},
             time);
   bool slow = true;
   for (const double tau : time) slow = slow && tau > 0;
@@ -490,27 +437,28 @@ void fields(Visitor& v, Creep& creep) {
 template <class Visitor>
 void fields(Visitor& v, Actuator& a) {
   v.group({.name = "braid", .doc = "geometry of the mesh"}, [&](auto& g) { fields(g, a.braid); });
-  v.group({.name = "effectiveness", .optional = true, .doc = "losses of tension with pressure"},
+  v.group({.name = "effectiveness", .optional = true, .doc = "losses of tension, by pressure"},
           [&](auto& g) { fields(g, a.effectiveness); });
-  v.group({.name = "long_end", .doc = "the mesh pulled straight"},
+  v.group({.name = "long_end", .doc = "end where the threads are straight and stretch"},
           [&](auto& g) { fields(g, a.long_end); });
-  v.group({.name = "short_end", .doc = "the mesh at its widest, b/sqrt 3"},
+  v.group({.name = "short_end", .doc = "end where the mesh is widest, at b/sqrt 3"},
           [&](auto& g) { fields(g, a.short_end); });
-  v.group({.name = "loss", .doc = "what is lost in motion"}, [&](auto& g) { fields(g, a.loss); });
-  v.group({.name = "bladder", .optional = true, .doc = "the tube inside, as a spring"},
+  v.group({.name = "loss", .doc = "losses in motion"}, [&](auto& g) { fields(g, a.loss); });
+  v.group({.name = "bladder", .optional = true, .doc = "inner tube, as a spring"},
           [&](auto& g) { fields(g, a.bladder); });
-  v.group({.name = "caps", .optional = true, .doc = "what does not contract at the ends"},
+  v.group({.name = "caps", .optional = true, .doc = "parts at the ends that do not contract"},
           [&](auto& g) { fields(g, a.caps); });
-  v.group({.name = "taper", .optional = true, .doc = "ends that taper, by Tondu and Lopez"},
+  v.group({.name = "taper", .optional = true, .doc = "tapering ends, by Tondu and Lopez"},
           [&](auto& g) { fields(g, a.taper); });
-  v.group({.name = "wall", .optional = true, .doc = "of the tube, by Chou and Hannaford"},
+  v.group({.name = "wall", .optional = true, .doc = "wall of the tube, by Chou and Hannaford"},
           [&](auto& g) { fields(g, a.wall); });
-  v.group({.name = "air", .optional = true, .doc = "volume in addition to that of the braid"},
+  v.group({.name = "air", .optional = true, .doc = "air volume in addition to the braid's"},
           [&](auto& g) { fields(g, a.air); });
-  v.group({.name = "series", .optional = true, .doc = "ends that give way under the tension"},
+  v.group({.name = "series", .optional = true, .doc = "elastic ends"},
           [&](auto& g) { fields(g, a.series); });
-  v.group({.name = "toe", .optional = true, .doc = "a slack muscle that begins to pull softly"},
-          [&](auto& g) { fields(g, a.toe); });
+  v.group(
+      {.name = "toe", .optional = true, .doc = "soft beginning of the tension of a slack muscle"},
+      [&](auto& g) { fields(g, a.toe); });
   if (tapers(a.taper) && !(a.taper.rest_length > a.caps.length)) {
     units::report_conflict(v, "taper", "no rest_length",
                            "that of the muscle without pressure and load");
@@ -522,13 +470,15 @@ void fields(Visitor& v, Actuator& a) {
     units::report_conflict(v, "air", "an offset that leaves no air at long_end.length",
                            "one that leaves some: above minus the volume of the braid there");
   }
-  v.group({.name = "hysteresis", .optional = true, .doc = "friction that turns with the pressure"},
+  v.group({.name = "hysteresis",
+           .optional = true,
+           .doc = "friction that depends on the direction of the pressure"},
           [&](auto& g) { fields(g, a.hysteresis); });
-  v.group({.name = "creep", .optional = true, .doc = "tension that comes late"},
+  v.group({.name = "creep", .optional = true, .doc = "delayed tension"},
           [&](auto& g) { fields(g, a.creep); });
   v.group({.name = "prediction",
            .optional = true,
-           .doc = "how far measured forces lie from the law's, as an identification found it"},
+           .doc = "half-widths about the law that contain 68 % or 95 % of measured forces"},
           [&](auto& g) { fields(g, a.prediction); });
 }
 

@@ -92,22 +92,30 @@ inline bool is_judged(const Reported& r) {
 // Visits the keys of one [[reported]].
 template <class Visitor>
 void fields(Visitor& v, Reported& r) {
-  v.text({.name = "key", .doc = "of summary.json"}, r.key);
-  v.text({.name = "value", .doc = "as reported"}, r.value);
-  v.choice({.name = "class", .optional = true, .doc = "what agreement is worth; needed to judge"},
+  v.text({.name = "key", .doc = "key of summary.json"}, r.key);
+  v.text({.name = "value", .doc = "value as reported, with its unit"}, r.value);
+  v.choice({.name = "class",
+            .optional = true,
+            .doc = "evidence that agreement provides; needed to judge"},
            r.statement_class, statement_classes);
-  v.choice({.name = "wording", .optional = true, .doc = "how it is reported: the band follows"},
+  v.choice({.name = "wording",
+            .optional = true,
+            .doc = "wording of the source, which determines the band"},
            r.wording, wordings);
-  v.text({.name = "of", .optional = true, .doc = "what a share by wording is a share of"}, r.of);
-  v.text({.name = "reading_error", .optional = true, .doc = "of the reported value"},
+  v.text({.name = "of",
+          .optional = true,
+          .doc = "reference of a share, for example of a negligible one"},
+         r.of);
+  v.text({.name = "reading_error", .optional = true, .doc = "error of the reported value"},
          r.reading_error);
-  v.texts(
-      {.name = "accept", .optional = true, .doc = "another band: lowest and highest that agrees"},
-      r.accept);
-  v.text({.name = "band_reason", .optional = true, .doc = "why `accept` is as it is"},
-         r.band_reason);
-  v.text({.name = "source", .doc = "where it is reported"}, r.source);
-  v.text({.name = "because", .optional = true, .doc = "why ours is known to differ"}, r.because);
+  v.texts({.name = "accept",
+           .optional = true,
+           .doc = "lowest and highest value that agree, in place of the wording's band"},
+          r.accept);
+  v.text({.name = "band_reason", .optional = true, .doc = "reason for `accept`"}, r.band_reason);
+  v.text({.name = "source", .doc = "where the value is reported"}, r.source);
+  v.text({.name = "because", .optional = true, .doc = "reason for an expected difference"},
+         r.because);
 }
 
 // Adds a problem for a judged figure without a class. Experiments in older logs have none.

@@ -62,8 +62,7 @@ template <class Visitor>
 void fields(Visitor& v, PageTable& page) {
   v.text({.name = "units",
           .optional = true,
-          .doc = "in which its numbers are shown: si, thesis, metric, or metric,length=cm; the log "
-                 "is in SI"},
+          .doc = "units of its numbers: si, thesis, metric, or metric,length=cm; the log is in SI"},
          page.units);
   report_wrong_units(v, page.units);
 }

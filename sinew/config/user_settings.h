@@ -23,7 +23,7 @@ template <class Visitor>
 void fields(Visitor& v, UserSettings& settings) {
   v.text({.name = "units",
           .optional = true,
-          .doc = "in which numbers are shown: si, thesis, metric, or metric,length=cm"},
+          .doc = "units of displayed numbers: si, thesis, metric, or metric,length=cm"},
          settings.units);
   report_wrong_units(v, settings.units);
 }

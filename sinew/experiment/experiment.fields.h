@@ -31,40 +31,36 @@ void amount_field(Visitor& v, Fault& fault) {
             .min = share || fault.what == Fault::What::noise ? 0.0 : -4095.0,
             .max = share ? 1.0 : 4095.0,
             .optional = share,
-            .doc = "offset, slip: counts that are added; noise: its standard deviation; dropout: "
-                   "share of the readings, absent: all"},
+            .doc = "offset, slip: added counts; noise: standard deviation; dropout: share of the "
+                   "readings, absent: all"},
            fault.amount);
 }
 
 // Visits the size of a leak.
 template <class Visitor>
 void leak_fields(Visitor& v, Fault& fault) {
-  v.number({.name = "area",
-            .unit = "m2",
-            .min = 0,
-            .max = 1e-3,
-            .least = 1e-15,
-            .why = "no muscle is wider",
-            .optional = true,
-            .doc = "of the hole, effective; ruptured, absent: a tenth of the cross-section of one "
-                   "actuator"},
-           fault.area);
+  v.number(
+      {.name = "area",
+       .unit = "m2",
+       .min = 0,
+       .max = 1e-3,
+       .least = 1e-15,
+       .why = "no muscle is wider",
+       .optional = true,
+       .doc =
+           "effective area of the hole; ruptured, absent: a tenth of an actuator's cross-section"},
+      fault.area);
   if (fault.what == Fault::What::ruptured) return;
   v.number({.name = "conductance",
             .unit = "kg/(s Pa)",
             .min = 0,
             .max = 1e-5,
-            .why = "beyond it is a hole, which has an area",
+            .why = "a larger leak is a hole, which has an area",
             .optional = true,
-            .doc = "leaking: mass flow per pressure difference, of a seat or a porous wall"},
+            .doc = "leaking: mass flow per pressure difference, through a seat or a porous wall"},
            fault.conductance);
-  v.number({.name = "share",
-            .unit = "1",
-            .min = 0,
-            .max = 1,
-            .optional = true,
-            .doc = "leaking: of a valve's area, that stays open"},
-           fault.share);
+  units::optional_share(v, "share", "leaking: share of the valve's area that stays open",
+                        fault.share);
   if (!(fault.area > 0 || fault.conductance > 0 || fault.share > 0))
     units::report_conflict(v, "area", "no leak",
                            "an area, a conductance, or the share of a valve's area",
@@ -83,21 +79,21 @@ void air_fields(Visitor& v, Fault& fault) {
               .max = 2e6,
               .why = "air of a line, no vacuum",
               .optional = true,
-              .doc = "failed: where the supply's line stands; absent: at the room's"},
+              .doc = "failed: pressure of the supply's line; absent: the room's"},
              fault.pressure);
 }
 
 template <class Visitor>
 void fields(Visitor& v, Fault& fault) {
   using What = Fault::What;
-  v.number({.name = "at", .unit = "s", .min = 0, .doc = "when it begins"}, fault.at);
+  units::amount(v, "at", "s", "time at which it begins", fault.at);
   v.number({.name = "for",
             .unit = "s",
             .min = 1e-4,
             .optional = true,
-            .doc = "how long it lasts; absent: to the end"},
+            .doc = "duration; absent: to the end of the run"},
            fault.lasts);
-  v.text({.name = "of", .doc = "a sensor; a valve, as in hip_flexor.inlet; a muscle; supply"},
+  v.text({.name = "of", .doc = "a sensor, a valve as in hip_flexor.inlet, a muscle, or supply"},
          fault.of);
   v.choice({.name = "what",
             .doc = "sensor: open (top count), short (0), stuck, offset, slip (stays), noise, "
@@ -128,54 +124,49 @@ void fields(Visitor& v, Fault& fault) {
 
 template <class Visitor>
 void fields(Visitor& v, Log& log) {
-  v.flag({.name = "enabled", .optional = true, .doc = "false: only summary.json is left"},
+  v.flag({.name = "enabled", .optional = true, .doc = "false: only summary.json is written"},
          log.enabled);
-  v.texts({.name = "channels", .optional = true, .doc = "topics; * matches anything"},
-          log.channels);
+  v.texts(
+      {.name = "channels", .optional = true, .doc = "recorded topics; * matches any characters"},
+      log.channels);
   v.number({.name = "period",
             .unit = "s",
             .min = 1e-4,
             .optional = true,
-            .doc = "between samples, a multiple of 0.1 ms; edges are logged one by one"},
+            .doc = "time between samples, a multiple of 0.1 ms; every valve edge is logged"},
            log.period);
 }
 
 template <class Visitor>
 void fields(Visitor& v, Start& start) {
-  v.named_numbers({.name = "joint_angles", .unit = "rad", .doc = "of every joint"},
+  v.named_numbers({.name = "joint_angles", .unit = "rad", .doc = "angle of every joint"},
                   start.joint_angles);
-  v.texts({.name = "blocked", .optional = true, .doc = "joints that are held where they start"},
+  v.texts({.name = "blocked", .optional = true, .doc = "joints that are held at their start angle"},
           start.blocked);
   v.number({.name = "pressure",
             .unit = "Pa abs",
             .min = 1e3,
             .max = 2e6,
             .why = "air of a muscle, no vacuum",
-            .doc = "of the air in every muscle"},
+            .doc = "pressure of the air in every muscle"},
            start.pressure);
-  v.number({.name = "trolley", .unit = "m", .optional = true, .doc = "along the track"},
+  v.number({.name = "trolley", .unit = "m", .optional = true, .doc = "position along the track"},
            start.trolley);
-  v.number({.name = "lift",
-            .unit = "m",
-            .min = 0,
-            .optional = true,
-            .doc = "of the body, from the cylinder's extended stop"},
-           start.lift);
-  v.number({.name = "settle",
-            .unit = "s",
-            .min = 0,
-            .optional = true,
-            .doc = "exhausts open, before the first phase"},
-           start.settle);
+  units::optional_amount(v, "lift", "m", "height of the body above the cylinder's extended stop",
+                         start.lift);
+  units::optional_amount(v, "settle", "s", "time with open exhausts before the first phase",
+                         start.settle);
 }
 
 template <class Visitor>
 void fields(Visitor& v, PulseTable& p) {
   constexpr double never = 65535;
-  v.numbers({.name = "closing", .unit = "1", .min = 0, .max = never, .doc = "[ticks], by duty"},
-            p.closing);
-  v.numbers({.name = "opening", .unit = "1", .min = 0, .max = never, .doc = "[ticks], by duty"},
-            p.opening);
+  v.numbers(
+      {.name = "closing", .unit = "1", .min = 0, .max = never, .doc = "closing tick for each duty"},
+      p.closing);
+  v.numbers(
+      {.name = "opening", .unit = "1", .min = 0, .max = never, .doc = "opening tick for each duty"},
+      p.opening);
 }
 
 // Describes the air of the machine.
@@ -224,40 +215,45 @@ void machine_fields(Visitor& v, std::string_view kind, Experiment& e) {
 // Visits what is done with a robot: numerics, start and plan.
 template <class Visitor>
 void robot_run_fields(Visitor& v, Experiment& e) {
-  v.group({.name = "plant_steps", .optional = true, .doc = "numerics"}, [&](auto& g) {
-    g.number({.name = "body",
-              .unit = "s",
-              .min = 1e-6,
-              .max = 5e-3,
-              .optional = true,
-              .doc = "between committed nodes"},
-             e.body_step);
-  });
-  v.group({.name = "start", .doc = "where the machine is at time 0"},
+  v.group({.name = "plant_steps", .optional = true, .doc = "time steps of the simulation"},
+          [&](auto& g) {
+            g.number({.name = "body",
+                      .unit = "s",
+                      .min = 1e-6,
+                      .max = 5e-3,
+                      .optional = true,
+                      .doc = "longest time step of the body's motion"},
+                     e.body_step);
+          });
+  v.group({.name = "start", .doc = "state of the machine at time 0"},
           [&](auto& g) { fields(g, e.start); });
   gait::fields(v, e.plan);
 }
 
 template <class Visitor>
 void run_fields(Visitor& v, Experiment& e) {
-  v.text({.name = "title", .doc = "of the experiment"}, e.title);
-  v.text({.name = "reproduces", .optional = true, .doc = "section and figures"}, e.reproduces);
-  if (!e.stand) v.text({.name = "plant", .optional = true, .doc = "the world: planar"}, e.plant);
-  v.integer({.name = "seed", .min = 0, .optional = true, .doc = "of the sensors' noise"}, e.seed);
+  v.text({.name = "title", .doc = "title of the experiment"}, e.title);
+  v.text({.name = "reproduces", .optional = true, .doc = "section and figures of the thesis"},
+         e.reproduces);
+  if (!e.stand)
+    v.text({.name = "plant", .optional = true, .doc = "kind of world: planar"}, e.plant);
+  v.integer({.name = "seed", .min = 0, .optional = true, .doc = "seed of the sensors' noise"},
+            e.seed);
   if (e.stand)
     fields(v, *e.stand);
   else
     robot_run_fields(v, e);
-  v.group({.name = "log", .optional = true, .doc = "what is recorded"}, [&](auto& g) {
+  v.group({.name = "log", .optional = true, .doc = "recorded channels"}, [&](auto& g) {
     fields(g, e.log);
     if (!e.stand)
-      g.flag({.name = "gains", .optional = true, .doc = "those in effect, too"}, e.log.gains);
+      g.flag({.name = "gains", .optional = true, .doc = "true: also the gains in effect"},
+             e.log.gains);
   });
-  v.group({.name = "page", .optional = true, .doc = "how people see the run"},
+  v.group({.name = "page", .optional = true, .doc = "display of the run"},
           [&](auto& g) { config::fields(g, e.page); });
-  v.list({.name = "fault", .optional = true, .doc = "what breaks while it runs"}, e.faults,
+  v.list({.name = "fault", .optional = true, .doc = "faults during the run"}, e.faults,
          [](auto& g, Fault& f) { fields(g, f); });
-  v.list({.name = "reported", .optional = true, .doc = "published values, printed with ours"},
+  v.list({.name = "reported", .optional = true, .doc = "published values, printed with the run's"},
          e.reported, [](auto& g, config::Reported& r) {
            config::fields(g, r);
            config::check_class(g, r);

@@ -27,20 +27,20 @@ void fields(Visitor& v, std::vector<ImportedFile>& files) {
   v.list(
       {.name = "imported",
        .optional = true,
-       .doc = "the recordings that a run was made of, in a resolved file"},
+       .doc = "recordings that a run was made from, in a resolved file"},
       files, [](auto& g, ImportedFile& f) {
-        g.text({.name = "file", .doc = "as it was named"}, f.file);
+        g.text({.name = "file", .doc = "name as it was given"}, f.file);
         g.text({.name = "kind", .doc = "CSV, MCAP, MATLAB or out.dat"}, f.kind);
-        g.text({.name = "size", .doc = "of the file, in bytes"}, f.size);
-        g.text({.name = "crc32", .doc = "of its bytes, in hexadecimal digits"}, f.crc32);
+        g.text({.name = "size", .doc = "size of the file in bytes"}, f.size);
+        g.text({.name = "crc32", .doc = "CRC-32 of the file, in hexadecimal digits"}, f.crc32);
         g.text(
-            {.name = "started", .optional = true, .doc = "on the clock on the wall, or: not known"},
+            {.name = "started", .optional = true, .doc = "wall time of the start, or: not known"},
             f.started);
-        g.integer({.name = "rows", .min = 0, .doc = "of the file"}, f.rows);
-        g.integer({.name = "values", .min = 0, .doc = "that went into the log"}, f.values);
+        g.integer({.name = "rows", .min = 0, .doc = "number of rows in the file"}, f.rows);
+        g.integer({.name = "values", .min = 0, .doc = "number of values in the log"}, f.values);
         g.integer({.name = "left_out",
                    .min = 0,
-                   .doc = "values that are not finite, or before the log's time 0"},
+                   .doc = "number of values that are not finite, or before the log's time 0"},
                   f.left_out);
       });
 }

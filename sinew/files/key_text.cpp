@@ -30,21 +30,21 @@ Title title_of(std::string_view kind) {
   if (kind == "rig") return {"Rig, the test stand of one muscle", "experiments/rig/*.toml"};
   if (kind == "plan") return {"Plan of a sweep or a sensitivity", "studies/*.toml"};
   if (kind == "mapping") return {"Mapping of a recording's columns", "*.toml"};
-  if (kind == "settings") return {"Settings of a person", "~/.config/sinew/settings.toml"};
+  if (kind == "settings") return {"Settings of a user", "~/.config/sinew/settings.toml"};
   return {"Tuning", "studies/*.toml"};
 }
 
 // Returns a note about keys that a file of that kind has in other files.
 std::string note_of(std::string_view kind) {
   if (kind == "actuator")
-    return "In the actuator's own file they stand without actuator.<name>: [braid], not "
-           "[actuator.bpa.braid].";
+    return "In an actuator file the keys omit actuator.<name>: [braid], not [actuator.bpa.braid].";
   if (kind == "experiment")
     return "An experiment may change every key of its robot, its actuators, valves and wiring.";
   if (kind == "robot" || kind == "rig")
-    return "Actuators and valves may stand here too, or in files of their own.";
+    return "Actuators and valves can be in this file or in files of their own.";
   if (kind == "any")
-    return "source, fit, guess and range are written after values, or in { value = … }.";
+    return "source, fit, guess and range are keys of { value = … }, or of a table for all its "
+           "values.";
   return "";
 }
 
@@ -190,11 +190,13 @@ std::string json_of(const std::vector<Key>& keys) {
 std::string page_of_keys() {
   std::string out =
       "# Every key of every file\n\n"
-      "`sinew keys WORD` finds them in a terminal, `sinew.keys(\"damping\")` from Python, "
-      "`files::find_keys` from C++; `sinew keys` has a JSON schema of each kind of file too, by "
-      "which editors complete and check. Units are SI; a file may use any other of the same "
-      "quantity (`\"3.2 in\"`, `\"60 psi gauge\"`). `<name>` is a name of yours, `[]` a list of "
-      "tables. The program writes this page from the tables by which it reads files.\n";
+      "`sinew keys WORD` finds keys in a terminal, `sinew.keys(\"damping\")` in Python, "
+      "`files::find_keys` in C++; `sinew keys` also writes a JSON schema of each kind of file, by "
+      "which editors complete and check. Units are SI; a file may use any other unit of the same "
+      "quantity (`\"3.2 in\"`, `\"60 psi gauge\"`). `<name>` is a name that you choose, `[]` a "
+      "list "
+      "of tables. [59] is an equation of the thesis; B.1, appendix A and thesis 6.5 are sections. "
+      "The program generates this page from the tables with which it reads files.\n";
   for (const std::string& kind : key_kinds()) {
     const Title title = title_of(kind);
     out += fmt::format("\n## {}\n\n", title.words);

@@ -291,18 +291,19 @@ std::vector<Key> composed(std::string_view kind) {
   const auto text = [&](std::string path, std::string doc, bool required = false) {
     return text_key(kind, std::move(path), std::move(doc), required);
   };
-  Key files = text("files", "other files, relative to this one");
+  Key files = text("files", "other files of the machine, relative to this one");
   files.type = KeyType::table;
-  const Key actuator = text("files.actuator", "an actuator file, or a list of them");
-  const Key valves = text("files.valves", "valves file"), gains = text("files.gains", "gain*.dat");
-  const Key version = text("sinew_version", "that ran, in a resolved file");
-  const Key timing = text("files.valve_timing", "predict.dat, the table of the valves' pulses");
+  const Key actuator = text("files.actuator", "actuator file, or a list of them");
+  const Key valves = text("files.valves", "valves file"),
+            gains = text("files.gains", "gain*.dat, table of gains");
+  const Key version = text("sinew_version", "version of the program that ran, in a resolved file");
+  const Key timing = text("files.valve_timing", "predict.dat, table of the valves' pulses");
   const Key wiring = text("files.wiring", "wiring file");
-  const Key name = text("name", "by which others call it; absent: the file's");
+  const Key name = text("name", "name in other files; absent: the file's");
   if (kind == "experiment")
     return {version, text("robot", "robot file; its tables can be changed here"), files, gains};
   if (kind == "robot")
-    return {text("name", "of the robot; in a resolved experiment it is robot_name", true),
+    return {text("name", "name of the robot; in a resolved experiment the key is robot_name", true),
             files,
             actuator,
             valves,
@@ -319,20 +320,21 @@ std::vector<Key> any_keys() {
   const Key flag{.kind = "any", .type = KeyType::flag, .default_text = "false"};
   Key fit = flag, guess = flag, range = text_key("any", "range", "");
   fit.path = "fit";
-  fit.doc = "of a value, or of all in a table: chosen so that something agrees";
+  fit.doc = "true: the value, or all values of a table, are chosen for agreement";
   guess.path = "guess";
-  guess.doc = "of a value, or of all in a table: not published";
+  guess.doc = "true: the value, or all values of a table, are not published";
   range.type = KeyType::texts;
-  range.doc = "of a value, or of all in a table: lowest and highest that it could be";
+  range.doc = "lowest and highest possible value, or share, of a value or a table";
   return {text_key("any", "format", "\"sinew.<kind>/1\"", true),
           text_key("any", "base",
                    "a file of the same kind, which this one changes; its `reported` figures are "
                    "not inherited"),
-          text_key("any", "source", "of a value, or of all in a table: where it comes from"),
+          text_key("any", "source", "source of a value, or of all values of a table"),
           fit,
           guess,
           range,
-          text_key("any", "uncertainty", "of a value: { value = \"3 N\", uncertainty = \"5 %\" }")};
+          text_key("any", "uncertainty",
+                   "uncertainty of a value: { value = \"3 N\", uncertainty = \"5 %\" }")};
 }
 
 std::vector<Key> list_keys(std::string_view kind) {

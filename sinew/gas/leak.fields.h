@@ -8,15 +8,9 @@ namespace sinew::gas {
 
 template <class Visitor>
 void fields(Visitor& v, Leak& leak) {
-  v.number(
-      {.name = "area", .unit = "m2", .min = 0, .optional = true, .doc = "of a hole, effective"},
-      leak.area);
-  v.number({.name = "conductance",
-            .unit = "kg/(s Pa)",
-            .min = 0,
-            .optional = true,
-            .doc = "mass flow per gauge pressure, of a porous wall"},
-           leak.conductance);
+  units::optional_amount(v, "area", "m2", "effective area of a hole", leak.area);
+  units::optional_amount(v, "conductance", "kg/(s Pa)",
+                         "mass flow per gauge pressure through a porous wall", leak.conductance);
 }
 
 }  // namespace sinew::gas

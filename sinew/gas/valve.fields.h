@@ -14,20 +14,20 @@ namespace sinew::gas {
 
 template <class Visitor>
 void fields(Visitor& v, Flow& flow) {
-  v.choice(
-      {.name = "law",
-       .doc = "orifice [42]-[44], the same with appendix A's rounded coefficients, or ISO 6358"},
-      flow.law,
-      {{"orifice", Flow::Law::orifice},
-       {"appendix-a", Flow::Law::appendix_a},
-       {"iso6358", Flow::Law::iso6358}});
+  v.choice({.name = "law",
+            .doc = "orifice: [42]-[44]; appendix-a: the same with its rounded coefficients; "
+                   "iso6358: ISO 6358"},
+           flow.law,
+           {{"orifice", Flow::Law::orifice},
+            {"appendix-a", Flow::Law::appendix_a},
+            {"iso6358", Flow::Law::iso6358}});
 
   const bool orifice = flow.law != Flow::Law::iso6358;
   v.number({.name = "area",
             .unit = "m2",
             .min = 0,
             .optional = !orifice,
-            .doc = "orifice: A_p C_q lumped, of the open valve [42], [43]"},
+            .doc = "orifice: effective area A_p C_q of the open valve [42], [43]"},
            flow.area);
   v.number({.name = "efficiency",
             .unit = "1",
@@ -35,7 +35,7 @@ void fields(Visitor& v, Flow& flow) {
             .max = 1,
             .why = "a share of the ideal flow",
             .optional = true,
-            .doc = "orifice: times the flow, 3.4"},
+            .doc = "orifice: factor of the flow, thesis 3.4"},
            flow.efficiency);
 
   v.number({.name = "sonic_conductance",
@@ -49,7 +49,7 @@ void fields(Visitor& v, Flow& flow) {
             .min = 0,
             .max = 0.999,
             .optional = orifice,
-            .doc = "iso6358: b, downstream/upstream at and below which the flow is choked"},
+            .doc = "iso6358: b, pressure ratio downstream/upstream up to which the flow is choked"},
            flow.critical_pressure_ratio);
 
   if (orifice && flow.sonic_conductance > 0) {
@@ -67,7 +67,7 @@ template <class Visitor>
 void shutter_fields(Visitor& v, Valve& valve) {
   v.choice({.name = "profile",
             .optional = valve.kind == Valve::Kind::regulator,
-            .doc = "how the shutter moves after the electrical edge"},
+            .doc = "motion of the shutter after the electrical edge"},
            valve.profile,
            {{"ideal", Valve::Profile::ideal},
             {"dead time", Valve::Profile::dead_time},
@@ -77,28 +77,28 @@ void shutter_fields(Visitor& v, Valve& valve) {
             .min = 0,
             .max = 1,
             .optional = true,
-            .doc = "from current on until the shutter moves"},
+            .doc = "time from current on to motion of the shutter"},
            valve.opening_delay);
   v.number({.name = "closing_delay",
             .unit = "s",
             .min = 0,
             .max = 1,
             .optional = true,
-            .doc = "from current off until the shutter moves"},
+            .doc = "time from current off to motion of the shutter"},
            valve.closing_delay);
   v.number({.name = "opening_ramp",
             .unit = "s",
             .min = 0,
             .max = 1,
             .optional = true,
-            .doc = "profile ramp: from shut to open"},
+            .doc = "profile ramp: time from shut to open"},
            valve.opening_ramp);
   v.number({.name = "closing_ramp",
             .unit = "s",
             .min = 0,
             .max = 1,
             .optional = true,
-            .doc = "profile ramp: from open to shut"},
+            .doc = "profile ramp: time from open to shut"},
            valve.closing_ramp);
   if (valve.profile != Valve::Profile::ramp && (valve.opening_ramp > 0 || valve.closing_ramp > 0)) {
     units::report_conflict(v, "profile", "a ramp's time with another profile", "\"ramp\"");
@@ -107,19 +107,17 @@ void shutter_fields(Visitor& v, Valve& valve) {
 
 template <class Visitor>
 void fields(Visitor& v, Circuit& c) {
-  const auto number = [&](std::string_view name, std::string_view unit, bool optional,
-                          std::string_view doc, double& value) {
-    v.number({.name = name, .unit = unit, .min = 0, .optional = optional, .doc = doc}, value);
-  };
-  number("resistance", "ohm", false, "R, with what is in series", c.resistance);
-  number("inductance", "H", false, "L", c.inductance);
-  number("hold_voltage", "V", false, "while it is on", c.hold_voltage);
-  number("boost_voltage", "V", true, "speed-up: in its place for the boost", c.boost_voltage);
-  number("release_voltage", "V", true, "against the current when it is switched off",
-         c.release_voltage);
-  number("motion_voltage", "V", true, "back-EMF of the opening shutter", c.motion_voltage);
-  number("motion_time", "s", true, "how long the shutter moves, until the valve is open",
-         c.motion_time);
+  units::amount(v, "resistance", "ohm", "R of coil and series resistors", c.resistance);
+  units::amount(v, "inductance", "H", "L of the coil", c.inductance);
+  units::amount(v, "hold_voltage", "V", "voltage while it is on", c.hold_voltage);
+  units::optional_amount(v, "boost_voltage", "V", "speed-up: voltage during the boost",
+                         c.boost_voltage);
+  units::optional_amount(v, "release_voltage", "V",
+                         "voltage against the current after it is switched off", c.release_voltage);
+  units::optional_amount(v, "motion_voltage", "V", "back-EMF of the opening shutter",
+                         c.motion_voltage);
+  units::optional_amount(v, "motion_time", "s",
+                         "duration of the opening motion, until the valve is open", c.motion_time);
   if ((c.resistance > 0) != (c.inductance > 0))
     units::report_conflict(v, "resistance", "a resistance or an inductance without the other",
                            "both above zero", R"(resistance = "12 ohm", inductance = "6 mH")");
@@ -131,23 +129,25 @@ void drive_fields(Visitor& v, Valve& valve) {
   const auto seconds = [](auto& g, std::string_view name, std::string_view doc, double& value) {
     g.number({.name = name, .unit = "s", .min = 0, .max = 1, .optional = true, .doc = doc}, value);
   };
-  const auto watts = [](auto& g, std::string_view name, std::string_view doc, double& value) {
-    g.number({.name = name, .unit = "W", .min = 0, .optional = true, .doc = doc}, value);
-  };
-  v.choice({.name = "drive", .optional = true, .doc = "current of the coil, 4.3"}, valve.drive,
+  v.choice({.name = "drive", .optional = true, .doc = "drive of the coil's current, thesis 4.3"},
+           valve.drive,
            {{"standard", Valve::Drive::standard}, {"speed-up", Valve::Drive::speed_up}});
   v.group({.name = "speed_up", .optional = true, .doc = "delays with drive speed-up"},
           [&](auto& g) {
-            seconds(g, "opening_delay", "in place of the standard one", valve.speed_up.opening);
-            seconds(g, "closing_delay", "in place of the standard one", valve.speed_up.closing);
+            seconds(g, "opening_delay", "with speed-up, in place of the standard one",
+                    valve.speed_up.opening);
+            seconds(g, "closing_delay", "with speed-up, in place of the standard one",
+                    valve.speed_up.closing);
           });
   v.group({.name = "coil", .optional = true, .doc = "electrical power"}, [&](auto& g) {
-    watts(g, "power", "while it is on, or held", valve.coil.power);
-    watts(g, "boost_power", "speed-up: at the start of a pulse", valve.coil.boost_power);
-    seconds(g, "boost_time", "speed-up: how long at most", valve.coil.boost_time);
+    units::optional_amount(g, "power", "W", "power while it is on, or is held", valve.coil.power);
+    units::optional_amount(g, "boost_power", "W", "speed-up: power at the start of a pulse",
+                           valve.coil.boost_power);
+    seconds(g, "boost_time", "speed-up: longest time with that power", valve.coil.boost_time);
   });
-  v.group({.name = "circuit", .optional = true, .doc = "what the coil's current follows from"},
-          [&](auto& g) { fields(g, valve.circuit); });
+  v.group(
+      {.name = "circuit", .optional = true, .doc = "constants that determine the coil's current"},
+      [&](auto& g) { fields(g, valve.circuit); });
   if (valve.drive == Valve::Drive::speed_up && valve.profile != Valve::Profile::ideal &&
       !(valve.speed_up.opening > 0 && valve.speed_up.closing > 0))
     units::report_conflict(v, "speed_up", "not both delays of the drive",
@@ -172,37 +172,35 @@ void limit_fields(Visitor& v, Valve& valve) {
             .unit = "Hz",
             .min = 0,
             .least = 1e-3,
-            .why = "a shutter that takes longer than a run never moves",
+            .why = "a slower shutter does not move within a run",
             .optional = true,
-            .doc = "of a square wave that the shutter follows; 0: any, 4.3"},
+            .doc = "highest frequency that the shutter follows, thesis 4.3; 0: no limit"},
            valve.max_frequency);
-  v.number({.name = "fails_above",
-            .unit = "Pa diff",
-            .min = 0,
-            .optional = true,
-            .doc = "pressure difference against which it does not open; 0: none, 4.3"},
-           valve.fails_above);
+  units::optional_amount(
+      v, "fails_above", "Pa diff",
+      "pressure difference above which it does not open, thesis 4.3; 0: no limit",
+      valve.fails_above);
 }
 
 template <class Visitor>
 void regulator_fields(Visitor& v, Valve& valve) {
   Regulator& r = valve.regulator;
-  v.group({.name = "regulator", .optional = true, .doc = "of kind regulator"}, [&](auto& g) {
+  v.group({.name = "regulator", .optional = true, .doc = "for kind regulator"}, [&](auto& g) {
     g.number({.name = "range",
               .unit = "Pa diff",
               .min = 0,
               .max = 2e6,
               .optional = true,
-              .doc = "gauge pressure at the full set point"},
+              .doc = "gauge pressure at the full setpoint"},
              r.range);
     g.number({.name = "time_constant",
               .unit = "s",
               .min = 0,
               .max = 10,
               .least = 1e-5,
-              .why = "what takes less than 10 us comes at once",
+              .why = "a shorter lag is 0",
               .optional = true,
-              .doc = "of the outlet's pressure; 0: at once"},
+              .doc = "time constant of the outlet's pressure; 0: no lag"},
              r.time_constant);
   });
   const bool regulates = valve.kind == Valve::Kind::regulator;

@@ -11,8 +11,8 @@ namespace sinew::robot {
 
 template <class Visitor>
 void fields(Visitor& v, Converter& converter) {
-  v.integer({.name = "bits", .min = 1, .max = 12, .doc = "of a conversion"}, converter.bits);
-  v.number({.name = "full_scale", .unit = "V", .min = 1e-3, .doc = "voltage of the top count"},
+  v.integer({.name = "bits", .min = 1, .max = 12, .doc = "bits of a conversion"}, converter.bits);
+  v.number({.name = "full_scale", .unit = "V", .min = 1e-3, .doc = "voltage of the largest count"},
            converter.full_scale);
 }
 
@@ -33,45 +33,45 @@ void scale_field(Visitor& v, std::string_view unit, double least, std::string_vi
 template <class Visitor>
 void real_fields(Visitor& v, Sensor& sensor) {
   if (sensor.kind == Sensor::Kind::angle)
-    scale_field(v, "rad/V", 1e-6, "of the potentiometer", sensor.scale);
+    scale_field(v, "rad/V", 1e-6, "scale of the potentiometer", sensor.scale);
   if (sensor.kind == Sensor::Kind::tension)
-    scale_field(v, "V/N", 1e-9, "of the transducer", sensor.scale);
+    scale_field(v, "V/N", 1e-9, "scale of the force transducer", sensor.scale);
   if (sensor.kind == Sensor::Kind::pressure)
-    scale_field(v, "V/Pa", 1e-12, "of the transducer", sensor.scale);
+    scale_field(v, "V/Pa", 1e-12, "scale of the pressure transducer", sensor.scale);
   if (sensor.kind == Sensor::Kind::velocity)
-    scale_field(v, "V s/rad", 1e-9, "of the spindle", sensor.scale);
+    scale_field(v, "V s/rad", 1e-9, "scale of the velocity sensor", sensor.scale);
   if (sensor.kind == Sensor::Kind::cylinder)
-    scale_field(v, "m/V", 1e-9, "of the potentiometer", sensor.scale);
+    scale_field(v, "m/V", 1e-9, "scale of the potentiometer", sensor.scale);
   v.number({.name = "at_rest",
             .unit = "count",
             .min = 0,
             .max = 65535,
-            .doc = "at the rest angle, at no tension, or always"},
+            .doc = "reading at the joint's rest angle or at zero; of a fixed sensor: always"},
            sensor.at_rest);
-  v.number(
-      {.name = "noise", .unit = "count", .min = 0, .optional = true, .doc = "standard deviation"},
-      sensor.noise);
+  units::optional_amount(v, "noise", "count", "standard deviation of the reading", sensor.noise);
 }
 
 // Visits the values that the controller assumes.
 template <class Visitor>
 void assumed_fields(Visitor& v, Sensor& sensor) {
   if (sensor.kind == Sensor::Kind::angle)
-    scale_field(v, "count/rad", 1e-3, "767 in B.1, 714 by 4.5", sensor.assumed_scale);
+    scale_field(v, "count/rad", 1e-3, "assumed scale, 767 in B.1, 714 by thesis 4.5",
+                sensor.assumed_scale);
   if (sensor.kind == Sensor::Kind::tension)
-    scale_field(v, "V/N", 1e-9, "one for all transducers in B.1", sensor.assumed_scale);
+    scale_field(v, "V/N", 1e-9, "assumed scale, in B.1 one for all transducers",
+                sensor.assumed_scale);
   if (sensor.kind == Sensor::Kind::pressure)
-    scale_field(v, "V/Pa", 1e-12, "of the transducer", sensor.assumed_scale);
+    scale_field(v, "V/Pa", 1e-12, "assumed scale of the pressure transducer", sensor.assumed_scale);
   if (sensor.kind == Sensor::Kind::velocity)
-    scale_field(v, "V s/rad", 1e-9, "of the spindle", sensor.assumed_scale);
+    scale_field(v, "V s/rad", 1e-9, "assumed scale of the velocity sensor", sensor.assumed_scale);
   if (sensor.kind == Sensor::Kind::cylinder)
-    scale_field(v, "count/m", 1e-3, "of its travel", sensor.assumed_scale);
+    scale_field(v, "count/m", 1e-3, "assumed scale of the travel", sensor.assumed_scale);
   v.number({.name = "at_rest",
             .unit = "count",
             .min = 0,
             .max = 65535,
             .optional = true,
-            .doc = "at the rest angle, at no tension, or always"},
+            .doc = "assumed reading at the joint's rest angle or at zero"},
            sensor.assumed_at_rest);
 }
 
@@ -83,29 +83,28 @@ void limit_fields(Visitor& v, Sensor& sensor) {
              .min = 0,
              .max = 65535,
              .optional = true,
-             .doc = "lowest and highest count that can be; absent: by the joint's reach"},
+             .doc = "lowest and highest plausible count; absent: from the joint's range"},
             sensor.plausible);
   v.number({.name = "max_rate",
             .unit = "count/s",
             .min = 1,
             .max = 1e9,
             .optional = true,
-            .doc = "faster than that it cannot move; absent: 60 rad/s of an angle"},
+            .doc = "largest plausible rate; absent: 60 rad/s for an angle"},
            sensor.max_rate);
   v.number({.name = "frozen_limit",
             .unit = "s",
             .min = 0.1,
             .max = 3600,
-            .why = "of less than ten scans a converter's noise repeats itself by chance",
+            .why = "within ten scans the noise of a converter repeats itself by chance",
             .optional = true,
-            .doc = "the same counts for so long, while driven, end the run; absent: never"},
+            .doc = "time of constant counts of a driven joint that ends the run; absent: no limit"},
            sensor.frozen_limit);
 }
 
 template <class Visitor>
 void fields(Visitor& v, Sensor& sensor) {
-  v.choice({.name = "kind", .doc = "what it measures; fixed: something that does not move"},
-           sensor.kind,
+  v.choice({.name = "kind", .doc = "measured quantity; fixed: one that never changes"}, sensor.kind,
            {{"angle", Sensor::Kind::angle},
             {"tension", Sensor::Kind::tension},
             {"fixed", Sensor::Kind::fixed},
@@ -117,16 +116,16 @@ void fields(Visitor& v, Sensor& sensor) {
           .doc = "joint of an angle or velocity, muscle of a tension or pressure"},
          sensor.of);
   if (sensor.kind == Sensor::Kind::fixed) board_field(v, sensor.board);
-  v.integer({.name = "channel", .min = 0, .max = 255, .doc = "of its board's converter"},
+  v.integer({.name = "channel", .min = 0, .max = 255, .doc = "channel of its board's converter"},
             sensor.channel);
   v.integer({.name = "tick",
              .min = 1,
              .max = 65535,
-             .doc = "of the period, when it is read; the conversion starts a tick earlier"},
+             .doc = "tick of the period at which it is read; the conversion starts a tick earlier"},
             sensor.tick);
-  v.group({.name = "real", .doc = "what the hardware does"},
+  v.group({.name = "real", .doc = "calibration and noise of the hardware"},
           [&](auto& g) { real_fields(g, sensor); });
-  v.group({.name = "assumed", .optional = true, .doc = "calibration that the controller uses"},
+  v.group({.name = "assumed", .optional = true, .doc = "calibration that the controller assumes"},
           [&](auto& g) { assumed_fields(g, sensor); });
   limit_fields(v, sensor);
 }

@@ -7,46 +7,72 @@
 
 namespace sinew::tune {
 
+// Visits the keys that a study and a tuning share.
+template <class Visitor, class File>
+void common_fields(Visitor& v, File& f) {
+  v.text({.name = "title", .doc = "title of the study"}, f.title);
+  v.text({.name = "reproduces", .optional = true, .doc = "section and figures of the thesis"},
+         f.reproduces);
+  v.text({.name = "experiment", .doc = "file of the experiment, relative to this file"},
+         f.experiment);
+  v.texts({.name = "set", .optional = true, .doc = "KEY=VALUE for every run"}, f.set);
+}
+template <class Visitor, class File>
+void reach_field(Visitor& v, File& f) {
+  v.flag({.name = "allow_unreachable",
+          .optional = true,
+          .doc = "true: also run foot paths out of reach, like sinew run's option"},
+         f.allow_unreachable);
+}
+
 template <class Visitor>
 void fields(Visitor& v, Study& s) {
-  v.text({.name = "title", .doc = "of the study"}, s.title);
-  v.text({.name = "reproduces", .optional = true, .doc = "section and figures"}, s.reproduces);
-  v.text({.name = "experiment", .doc = "file of the experiment, relative to this one"},
-         s.experiment);
-  v.texts({.name = "set", .optional = true, .doc = "key=value, for every run"}, s.set);
-  v.texts({.name = "vary", .optional = true, .doc = "KEY=a,b,c unit or KEY=from:to:n unit"},
+  common_fields(v, s);
+  v.texts({.name = "vary", .optional = true, .doc = "grid: KEY=a,b,c unit or KEY=from:to:n unit"},
           s.vary);
-  v.texts({.name = "range", .optional = true, .doc = "KEY=from:to unit [log|whole], sampled"},
+  v.texts({.name = "range", .optional = true, .doc = "sampled range: KEY=from:to unit [log|whole]"},
           s.range);
-  v.choice({.name = "sample", .optional = true, .doc = "how points lie between the ranges' ends"},
+  v.choice({.name = "sample", .optional = true, .doc = "distribution of the points in the ranges"},
            s.sample,
            {{"sobol", Sample::Kind::sobol},
             {"latin", Sample::Kind::latin},
             {"random", Sample::Kind::random}});
-  v.integer({.name = "points", .min = 0, .max = 1000000, .optional = true, .doc = "of the sample"},
+  v.integer({.name = "points",
+             .min = 0,
+             .max = 1000000,
+             .optional = true,
+             .doc = "number of points of the sample"},
             s.points);
-  v.integer({.name = "sample_seed", .min = 0, .optional = true, .doc = "of the sample's points"},
+  v.integer({.name = "sample_seed", .min = 0, .optional = true, .doc = "seed of the sample"},
             s.sample_seed);
-  v.integer({.name = "seeds", .min = 0, .max = 10000, .optional = true, .doc = "runs per point"},
+  v.integer({.name = "seeds",
+             .min = 0,
+             .max = 10000,
+             .optional = true,
+             .doc = "runs per point with different noise; 0: one, with the experiment's seed"},
             s.seeds);
-  v.text({.name = "largest", .optional = true, .doc = "like vary: the key that is searched"},
+  v.text({.name = "largest",
+          .optional = true,
+          .doc = "key whose largest valid value is searched, like vary"},
          s.largest);
-  v.texts({.name = "where", .optional = true, .doc = "key < value: what must hold"}, s.where);
+  v.texts({.name = "where", .optional = true, .doc = "conditions on results: KEY < VALUE"},
+          s.where);
   v.integer({.name = "halvings",
              .min = 0,
              .max = 50,
              .optional = true,
-             .doc = "of the interval that the search finds"},
+             .doc = "number of times that the search halves its interval"},
             s.halvings);
-  v.texts({.name = "report", .optional = true, .doc = "keys of summary.json: key [unit]"},
+  v.texts({.name = "report",
+           .optional = true,
+           .doc = "results in the tables: KEY [unit], of summary.json"},
           s.report);
   v.text({.name = "units",
           .optional = true,
-          .doc = "of figures that name none: si, thesis, metric, or metric,length=cm"},
+          .doc = "units of results without one: si, thesis, metric, or metric,length=cm"},
          s.units);
   config::report_wrong_units(v, s.units);
-  v.flag({.name = "allow_unreachable", .optional = true, .doc = "as sinew run's"},
-         s.allow_unreachable);
+  reach_field(v, s);
 }
 
 }  // namespace sinew::tune

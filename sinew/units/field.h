@@ -44,7 +44,7 @@ struct Field {
   double least = 0;           // smallest nonzero size: 0 is allowed, nearly 0 is taken for an error
   std::string_view why = "";  // reason for these bounds, in messages: "an efficiency is a share"
   bool optional = false;      // absent: the struct's default is kept
-  std::string_view doc = "";  // one line
+  std::string_view doc = "";  // one line: a noun phrase, then what 0 or a missing key means
 };
 
 // One allowed word of a choice and its value.
@@ -53,5 +53,21 @@ struct Choice {
   std::string_view word;
   Enum value;
 };
+
+// Visit a quantity of at least 0, required or with a default, and a share from 0 to 1.
+template <class Visitor>
+void amount(Visitor& v, std::string_view name, std::string_view unit, std::string_view doc,
+            double& value) {
+  v.number({.name = name, .unit = unit, .min = 0, .doc = doc}, value);
+}
+template <class Visitor>
+void optional_amount(Visitor& v, std::string_view name, std::string_view unit, std::string_view doc,
+                     double& value) {
+  v.number({.name = name, .unit = unit, .min = 0, .optional = true, .doc = doc}, value);
+}
+template <class Visitor>
+void optional_share(Visitor& v, std::string_view name, std::string_view doc, double& value) {
+  v.number({.name = name, .unit = "1", .min = 0, .max = 1, .optional = true, .doc = doc}, value);
+}
 
 }  // namespace sinew::units

@@ -53,19 +53,20 @@ inline constexpr std::array ranges = {
     Range{"count", 1e6, "a converter of 16 bits ends at 65535"},
     Range{"count/rad", 1e6, "a converter of 16 bits ends at 65535"},
     Range{"count/m", 1e9, "a converter of 16 bits ends at 65535"},
-    Range{"1/count", 1e3, "one count of error already opens a valve for good at 1"},
-    Range{"s/count", 1e3, "one count a second already opens a valve for good at 1"},
-    Range{"1/(count s)", 1e6, "one count of error already opens a valve for good"},
+    Range{"1/count", 1e3, "one count of error already opens a valve permanently at 1"},
+    Range{"s/count", 1e3, "one count a second already opens a valve permanently at 1"},
+    Range{"1/(count s)", 1e6, "one count of error already opens a valve permanently"},
     Range{"1/(N m/rad)", 8e4,
-          "the low level takes no more, and the least error already opens a valve for good"},
-    Range{"1/(N m s/rad)", 1e9, "the least error already opens a valve for good"},
+          "the joint controller accepts no more, and the least error already opens a valve "
+          "permanently"},
+    Range{"1/(N m s/rad)", 1e9, "the least error already opens a valve permanently"},
     Range{"rad/V", 1e4, "a joint turns a few times at most over a potentiometer's range"},
     Range{"m/V", 1e3, "a potentiometer is not that long"},
     Range{"V/N", 1e6, "a transducer that the least force saturates"},
     Range{"V/Pa", 1e3, "a transducer that the least pressure saturates"},
     Range{"V s/rad", 1e6, "a spindle that the least speed saturates"},
     Range{"m/N", 1e3, "a newton does not move a path by more"},
-    Range{"1/m", 1e6, "a micrometre of error already opens a valve for good"},
+    Range{"1/m", 1e6, "a micrometre of error already opens a valve permanently"},
 };
 
 // Range for a unit without a row, such as 1/Pa2 of a polynomial.
