@@ -64,7 +64,11 @@ const Changes& changes() {
                            .keys = {{.kind = "experiment",
                                      .format = 2,
                                      .from = "control.brain_period",
-                                     .to = "high_level_period"}}};
+                                     .to = "high_level_period"},
+                                    {.kind = "experiment",
+                                     .format = 2,
+                                     .from = "drive.believed_load",
+                                     .to = "assumed_load"}}};
   return all;
 }
 
@@ -127,7 +131,7 @@ const KeyChange* removed_key(std::string_view path, const Changes& changes) {
   return nullptr;
 }
 
-std::string in_words(const KeyChange& change, std::string_view path) {
+std::string replacement_text(const KeyChange& change, std::string_view path) {
   const std::string since = fmt::format("since sinew.{}/{}", change.kind, change.format);
   if (change.to.empty()) return fmt::format("{}; it is gone {}", change.why, since);
   const std::string_view table = path.substr(0, path.rfind('.') + 1);

@@ -66,7 +66,7 @@ const KeyChange* removed_key(std::string_view path, const Changes& changes);
 
 // Returns "muscle.a.opening_delay, which replaces it since sinew.robot/2", for Problem::try_this.
 // `path` is the key that was found.
-std::string in_words(const KeyChange& change, std::string_view path);
+std::string replacement_text(const KeyChange& change, std::string_view path);
 
 // Returns "KEY=VALUE" of a plan or a tuning with the key that replaced KEY; unchanged if none did.
 // Such texts name keys of an experiment, whose format they do not state.

@@ -346,7 +346,8 @@ void Reader::refuse_unused(const Node& child, const std::string& path,
   const std::string expected =
       known.empty() || known.size() > 12 ? "a key that is read here" : either(known);
   if (const KeyChange* removed = removed_key(path, *options_.changes))
-    return add_problem(child, path, "a key that is gone", expected, in_words(*removed, path));
+    return add_problem(child, path, "a key that is gone", expected,
+                       replacement_text(*removed, path));
   const std::string_view near = closest(child.key, known);
   add_problem(child, path, "an unknown key", expected,
               near.empty() ? "" : fmt::format("{}; did you mean that?", near));

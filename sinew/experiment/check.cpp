@@ -458,7 +458,7 @@ void check_law(const Experiment& e, Findings& out) {
     out.add("drive.desired", "none", "a length", "desired = \"2.9 in\"");
   out.unused(!law && (d.desired > 0 || !d.lengths.empty()), "drive.desired",
              "kind = \"feed-forward\" or \"feedback\"");
-  out.unused(!law && d.believed_load != 0, "drive.believed_load", "kind = \"feed-forward\"");
+  out.unused(!law && d.assumed_load != 0, "drive.assumed_load", "kind = \"feed-forward\"");
   out.unused(d.kind != DriveKind::feedback && !d.sensor.empty(), "drive.sensor",
              "kind = \"feedback\"");
   out.unused(d.kind != DriveKind::feedback && (d.gain > 0 || d.dead_band > 0), "drive.gain",

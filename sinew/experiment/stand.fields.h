@@ -11,25 +11,31 @@ namespace sinew::experiment {
 
 template <class Visitor>
 void law_fields(Visitor& v, Stand::Drive& d) {
-  robot::amount(v, "desired", "m", 0, "feed-forward, feedback: length", d.desired);
-  robot::points(
-      v, "lengths",
-      {.name = "length", .unit = "m", .min = 0, .why = "no muscle is shorter than nothing"},
-      "feed-forward, feedback: desired over time", d.lengths);
-  robot::amount(v, "believed_load", "N", 0, "feed-forward: what hangs on the element",
-                d.believed_load);
+  units::optional_amount(v, "desired", "m", "feed-forward, feedback: desired length", d.desired);
+  robot::points(v, "lengths",
+                {.name = "length", .unit = "m", .min = 0, .why = "a length is not negative"},
+                "feed-forward, feedback: desired length over time", d.lengths);
+  units::optional_amount(v, "assumed_load", "N", "feed-forward: assumed load on the element",
+                         d.assumed_load);
   v.choice(
-      {.name = "law", .optional = true, .doc = "feedback"}, d.law,
+      {.name = "law",
+       .optional = true,
+       .doc = "feedback: pulses beyond the dead band, or a duty proportional to the error"},
+      d.law,
       {{"on-off", Stand::Drive::Law::on_off}, {"proportional", Stand::Drive::Law::proportional}});
-  v.text({.name = "sensor", .optional = true, .doc = "feedback: of the length"}, d.sensor);
-  robot::amount(v, "dead_band", "m", 0, "feedback: error without a pulse", d.dead_band);
-  robot::amount(v, "gain", "1/m", 0, "proportional: duty per error", d.gain);
+  v.text({.name = "sensor", .optional = true, .doc = "feedback: sensor of the length"}, d.sensor);
+  units::optional_amount(v, "dead_band", "m", "feedback: largest error without a pulse",
+                         d.dead_band);
+  units::optional_amount(v, "gain", "1/m", "proportional: duty per error", d.gain);
 }
 
 template <class Visitor>
 void fields(Visitor& v, Stand::Drive& d) {
   using Kind = Stand::Drive::Kind;
-  v.choice({.name = "kind", .doc = "what opens and shuts the valves"}, d.kind,
+  v.choice({.name = "kind",
+            .doc = "a duty (pwm), single pulses, a length by the model (feed-forward) or by a "
+                   "sensor (feedback)"},
+           d.kind,
            {{"none", Kind::none},
             {"pwm", Kind::pwm},
             {"pulses", Kind::pulses},
@@ -40,18 +46,17 @@ void fields(Visitor& v, Stand::Drive& d) {
             .min = 1e-3,
             .max = 6,
             .optional = true,
-            .doc = "of pulses and laws, a multiple of 0.1 ms"},
+            .doc = "period of pulses and laws, a multiple of 0.1 ms"},
            d.period);
-  v.number({.name = "duty", .unit = "1", .min = 0, .max = 1, .optional = true, .doc = "pwm"},
-           d.duty);
+  units::optional_share(v, "duty", "pwm: duty of the inlet", d.duty);
   robot::points(v, "duties",
                 {.name = "duty", .unit = "1", .min = 0, .max = 1, .why = "a share of the period"},
-                "pwm: from an instant on", d.duties);
-  v.list({.name = "pulses", .optional = true, .doc = "single ones"}, d.pulses,
-         [](auto& g, Stand::Drive::Pulse& p) {
-           g.number({.name = "at", .unit = "s", .min = 0, .doc = "edge of the coil"}, p.at);
-           g.number({.name = "open", .unit = "s", .min = 0, .doc = "how long"}, p.open);
-           g.flag({.name = "exhaust", .optional = true, .doc = "of the exhaust, not the inlet"},
+                "pwm: duty over time, in steps", d.duties);
+  v.list({.name = "pulses", .optional = true, .doc = "pulses: single openings of a valve"},
+         d.pulses, [](auto& g, Stand::Drive::Pulse& p) {
+           units::amount(g, "at", "s", "time of the electrical edge", p.at);
+           units::amount(g, "open", "s", "duration of the pulse", p.open);
+           g.flag({.name = "exhaust", .optional = true, .doc = "true: the exhaust, not the inlet"},
                   p.exhaust);
          });
   law_fields(v, d);
@@ -66,14 +71,14 @@ void start_fields(Visitor& v, Stand& e) {
             .least = 1e3,
             .why = "air of a muscle, no vacuum",
             .optional = true,
-            .doc = "of the air"},
+            .doc = "pressure of the air at the start"},
            e.start_pressure);
-  robot::size(v, "length", "m", 1e-4, "a muscle that can be seen", "0: where the load hangs",
-              e.start_length);
+  robot::size(v, "length", "m", 1e-4, "a muscle that can be seen",
+              "length at the start; 0: where the load is in balance", e.start_length);
   v.number({.name = "displacement",
             .unit = "m",
             .optional = true,
-            .doc = "from there with the same air, down > 0"},
+            .doc = "shift from there with the same air, positive downwards"},
            e.displacement);
 }
 
@@ -90,45 +95,45 @@ void fields(Visitor& v, Stand::Sweep& s) {
             .max = 1,
             .least = 1e-4,
             .why = "each step is a run of its own",
-            .doc = "between them"},
+            .doc = "difference between two duties"},
            s.step);
 }
 
 template <class Visitor>
 void fields(Visitor& v, Stand::Measured& m) {
-  robot::size(v, "period", "s", 1e-4, "a tick", "between rows of measured.csv; 0: that of the log",
-              m.period);
-  robot::amount(v, "from", "s", 0, "the first row", m.from);
+  robot::size(v, "period", "s", 1e-4, "a tick",
+              "time between rows of measured.csv; 0: that of the log", m.period);
+  units::optional_amount(v, "from", "s", "time of the first row", m.from);
 }
 
 // Visits the keys that describe an experiment's stand; title, seed, air and log are keys of every
 // experiment.
 template <class Visitor>
 void fields(Visitor& v, Stand& s) {
-  v.number({.name = "duration", .unit = "s", .min = 1e-3, .max = 1e5, .doc = "of the run"},
+  v.number({.name = "duration", .unit = "s", .min = 1e-3, .max = 1e5, .doc = "duration of the run"},
            s.duration);
   v.number({.name = "step",
             .unit = "s",
             .min = 1e-6,
             .max = 1e-2,
             .optional = true,
-            .doc = "between committed nodes"},
+            .doc = "longest time step"},
            s.step);
   v.number({.name = "accuracy",
             .unit = "1",
             .min = 1e-12,
             .max = 1e-3,
             .optional = true,
-            .doc = "of a swing, per radian: shorter pieces between nodes"},
+            .doc = "error of an oscillation per radian, which shortens the steps"},
            s.accuracy);
   robot::fields(v, static_cast<robot::Stand&>(s));
-  v.group({.name = "start", .optional = true, .doc = "at time 0"},
+  v.group({.name = "start", .optional = true, .doc = "state at time 0"},
           [&](auto& g) { start_fields(g, s); });
-  v.group({.name = "drive", .optional = true, .doc = "of the valves"},
+  v.group({.name = "drive", .optional = true, .doc = "drive of the valves"},
           [&](auto& g) { fields(g, s.drive); });
-  v.group({.name = "sweep", .optional = true, .doc = "each duty on a stand of its own"},
+  v.group({.name = "sweep", .optional = true, .doc = "sweep of the duty, one run per duty"},
           [&](auto& g) { fields(g, s.sweep); });
-  v.group({.name = "measured", .optional = true, .doc = "what the sensors leave as CSV"},
+  v.group({.name = "measured", .optional = true, .doc = "readings of the sensors in measured.csv"},
           [&](auto& g) { fields(g, s.measured); });
 }
 

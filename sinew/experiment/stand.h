@@ -32,7 +32,7 @@ struct Stand : robot::Stand {
     std::vector<Pulse> pulses;
     double desired = 0;                             // feed-forward, feedback: desired length [m]
     std::vector<signals::Schedule::Point> lengths;  // desired length over time
-    double believed_load = 0;                       // feed-forward: assumed load on the element [N]
+    double assumed_load = 0;                        // feed-forward: assumed load on the element [N]
     Law law = Law::proportional;                    // feedback
     std::string sensor;                             // feedback: sensor of the length
     double dead_band = 0;                           // feedback: largest error without a pulse [m]

@@ -64,7 +64,7 @@ Drive::Drive(const experiment::Experiment& e)
 
 // Returns the commanded duty of a 3-way valve that holds the muscle at a length.
 double Drive::hold(double length) const noexcept {
-  const double load = drive_.believed_load;
+  const double load = drive_.assumed_load;
   const double p = holding_pressure(bundle_, length, load, air_.atmosphere, supply_);
   const double d = steady_duty(inlet_.flow, exhaust_.flow, air_, supply_, p);
   const gas::Delays delays = gas::delays(inlet_);
@@ -75,8 +75,7 @@ double Drive::hold(double length) const noexcept {
 // dose per period.
 DriveShares Drive::feed_forward(double length) noexcept {
   if (three_way_) return {hold(length), 0};
-  const double p =
-      holding_pressure(bundle_, length, drive_.believed_load, air_.atmosphere, supply_);
+  const double p = holding_pressure(bundle_, length, drive_.assumed_load, air_.atmosphere, supply_);
   const double missing = air_at(bundle_, air_, length, p) - state_.assumed_air;
   const double flow = missing > 0 ? gas::mass_flow(inlet_.flow, air_, supply_, p)
                                   : gas::mass_flow(exhaust_.flow, air_, p, air_.atmosphere);
