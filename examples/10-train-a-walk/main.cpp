@@ -74,7 +74,7 @@ double normal(std::uint64_t generation, std::uint64_t number) {
 // The walk of the thesis on a track of 20 m, since its track is not longer than its walk.
 class Track {
  public:
-  // Runs the plan once, which the constructor of the course requires.
+  // Runs the plan once, which the constructor of the episode requires.
   explicit Track(const std::string& file)
       : walk_(run::buildable(file, {"trolley.track_length=20 m", "sequence.repeat=4"})),
         episode_(task(), *std::make_unique<run::Simulation>(walk_)) {}

@@ -19,7 +19,7 @@ TRIED = ROUNDS * ENVS
 
 envs = sinew.gym.VectorEnv("walk", num_envs=ENVS)
 actions = envs.single_action_space.shape[0]
-phase_at = [sight.channel for sight in envs.task.sights].index("/plan/phase")
+phase_at = [o.channel for o in envs.task.observations].index("/plan/phase")
 
 
 def dice(generation: int, count: int) -> Any:

@@ -24,9 +24,9 @@ std::vector<std::string> folders_of(const py::sequence& runs) {
   return out;
 }
 
-report::AlignOptions wish_of(const std::string& align, const std::string& event,
-                             const std::vector<std::string>& align_by, const std::string& clock,
-                             double within) {
+report::AlignOptions align_options_of(const std::string& align, const std::string& event,
+                                      const std::vector<std::string>& align_by,
+                                      const std::string& clock, double within) {
   if (clock != "none" && clock != "fit")
     throw py::value_error("clock: found " + config::in_quotes(clock) + "; expected none or fit");
   report::AlignOptions align_options(align_of(align));
@@ -41,7 +41,8 @@ py::object compare(const py::sequence& runs, const std::string& align, const std
                    const std::vector<std::string>& align_by, const std::string& clock,
                    double within, const std::vector<std::string>& channels) {
   const std::vector<std::string> paths = folders_of(runs);
-  const report::AlignOptions align_options = wish_of(align, event, align_by, clock, within);
+  const report::AlignOptions align_options =
+      align_options_of(align, event, align_by, clock, within);
   std::string json;
   {
     const py::gil_scoped_release others;
@@ -95,7 +96,8 @@ void bind_compare(py::module_& m) {
       "replay", &replay, py::arg("path"), py::kw_only(), py::arg("of") = "controller",
       py::arg("sets") = py::none(), py::arg("band") = 0.05, py::arg("folder") = py::none(),
       py::arg("force") = false,
-      "Feeds the readings of a kept run to today's controller (`of` controller), or its valves'\n"
+      "Feeds the readings of a kept run to the present controller (`of` controller), or its "
+      "valves'\n"
       "commands to today's plant (plant), and returns where what comes out parts from what was\n"
       "recorded, as `sinew replay --json` prints it. `sets`: \"key=value\" in place of the run's;\n"
       "`band`: the share of a channel's range beyond which it has parted; `folder`: keeps the\n"

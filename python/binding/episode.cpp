@@ -108,7 +108,7 @@ py::tuple step_each(const std::vector<std::shared_ptr<HeldEpisode>>& episodes,
   const Episode& definition = episodes[0]->definition();
   for (const auto& episode : episodes)
     if (!episode || &episode->definition() != &definition)
-      throw std::invalid_argument("episodes: found some of another course; expected one course");
+      throw std::invalid_argument("episodes: found several definitions; expected one");
   check_shape(actions, {episodes.size(), definition.actions()}, "actions");
   check_shape(skipped, {episodes.size()}, "skipped");
   for (std::size_t i = 0; i < episodes.size() * definition.actions(); ++i)
@@ -136,16 +136,16 @@ py::tuple step_each(const std::vector<std::shared_ptr<HeldEpisode>>& episodes,
 }  // namespace
 
 void bind_episode(py::module_& m) {
-  py::class_<Episode, std::shared_ptr<Episode>>(m, "Course")
+  py::class_<Episode, std::shared_ptr<Episode>>(m, "EpisodeDefinition")
       .def(py::init(&make_episode), py::arg("example"), py::arg("settings"), py::arg("offsets"),
-           py::arg("factors"), py::arg("sights"), py::arg("middles"), py::arg("scales"),
+           py::arg("factors"), py::arg("observations"), py::arg("middles"), py::arg("scales"),
            py::arg("measures"), py::arg("begin"), py::arg("period"))
       .def_property_readonly("period", &Episode::period);
   py::class_<HeldEpisode, std::shared_ptr<HeldEpisode>>(m, "Episode")
-      .def(py::init<std::shared_ptr<Episode>, HeldPointer>(), py::arg("course").none(false),
+      .def(py::init<std::shared_ptr<Episode>, HeldPointer>(), py::arg("definition").none(false),
            py::arg("simulation").none(false))
       .def_property_readonly("simulation", &HeldEpisode::simulation)
-      .def("look", &observe)
+      .def("observe", &observe)
       .def("step", &step, py::arg("action"));
   m.def("step_episodes", &step_each, py::arg("episodes"), py::arg("actions"), py::arg("skipped"));
 }

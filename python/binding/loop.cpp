@@ -101,7 +101,8 @@ void bind_loop(py::module_& m) {
       .def("step", &step, py::arg("values"),
            "Sets the settings to these values, in SI (NaN: left as it is), runs on by a period,\n"
            "and returns what is read, an array. Raises RunError and ValueError.")
-      .def("look", &read, "Returns what is read now, an array; nothing moves on.");
+      .def("read", &read,
+           "Returns the present values of the channels to read; time does not advance.");
   m.def("step_all", &step_each, py::arg("loops"), py::arg("values"),
         "Steps loops that are alike, one after the other: `values` has a row for each. Returns a\n"
         "row of readings for each. Raises as Loop.step() does.");

@@ -35,7 +35,7 @@ class LockStep(unittest.TestCase):
 
 
 class Wrong(Refusals):
-    def test_what_is_not_there_is_told(self) -> None:
+    def test_missing_files_are_reported(self) -> None:
         run: Any = sinew.run
         rig = sinew.shipped("experiments/rig/pwm-50hz-1lb.toml")
         self.refused(

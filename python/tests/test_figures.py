@@ -81,7 +81,7 @@ class Figures(Refusals):
         with self.assertRaisesRegex(ValueError, "start, event or correlation"):
             sinew.figures([self.run_folder, late], out, align="phase")
 
-    def test_wrong_words_are_told(self) -> None:
+    def test_wrong_words_are_reported(self) -> None:
         out = Path(self.folder.name) / "none"
         with self.assertRaisesRegex(sinew.InputError, "nearest|joint"):
             sinew.figures(self.run_folder, out, formats=[], channels=["/joint/*/angel"])

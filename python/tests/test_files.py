@@ -26,7 +26,7 @@ class Files(Refusals):
             (lift,) = sinew.new_file("experiment", "lift", folder=here, of=robot[0], metric=True)
             run = sinew.run(lift)
             self.assertLess(run.summary["joints"]["lever"]["tracking_rms_rad"], 0.12)
-            with self.assertRaisesRegex(sinew.InputError, "a file that is there already"):
+            with self.assertRaisesRegex(sinew.InputError, "an existing file"):
                 sinew.new_file("experiment", "lift", folder=here)
 
     def test_what_is_wrong_is_raised(self) -> None:

@@ -35,7 +35,7 @@ class Exported(unittest.TestCase):
 
 
 class Wrong(Refusals):
-    def test_what_is_asked(self) -> None:
+    def test_what_is_requested(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "x.fmu")
 
@@ -69,4 +69,4 @@ class Wrong(Refusals):
             )
             self.assertFalse(os.path.exists(path))
             sinew.export_fmu(ACTUATOR, path)
-            self.refused([(made(ACTUATOR), sinew.InputError, "a name that is free")])
+            self.refused([(made(ACTUATOR), sinew.InputError, "an unused name")])

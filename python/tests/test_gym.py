@@ -95,7 +95,7 @@ class Env(unittest.TestCase):
                 self.assertEqual(one[1:4], two[1:4])
             self.assertEqual(mine.reset()[1], other.reset()[1])
 
-    def test_an_action_is_what_it_says(self) -> None:
+    def test_an_action_has_its_stated_effect(self) -> None:
         env = sinew.gym.Env("walk")
         plan = sinew.Simulation(WALK, dict(env.task.sets))
         keys = ("control.angle.hip", "control.stiffness.hip")
@@ -127,7 +127,10 @@ class Env(unittest.TestCase):
     def test_channels_without_a_value_are_zero_and_marked(self) -> None:
         task = dataclasses.replace(
             sinew.gym.task("walk"),
-            sights=[sinew.gym.Sight("/joint/hip/angle"), sinew.gym.Sight("/desired/foot/position.x")],
+            observations=[
+                sinew.gym.Observation("/joint/hip/angle"),
+                sinew.gym.Observation("/desired/foot/position.x"),
+            ],
         )
         env = sinew.gym.Env(task)
         seen, info = env.reset(seed=1)
@@ -299,7 +302,7 @@ class Wrong(Refusals):
         many.reset(seed=1)
         walk = sinew.gym.task("walk")
         nan = float("nan")
-        action, sight = sinew.gym.Action, sinew.gym.Sight
+        action, observation = sinew.gym.Action, sinew.gym.Observation
 
         def made(**parts: Any) -> sinew.gym.Env:
             return sinew.gym.Env(dataclasses.replace(walk, **parts))
@@ -329,8 +332,8 @@ class Wrong(Refusals):
                 (lambda: made(actions=[action("x", "offset", 1.0)]), ValueError, "expected one of"),
                 (lambda: made(actions=[action(hip, "sum", 1.0)]), ValueError, "offset or factor"),
                 (lambda: made(actions=[action(hip, "factor", 0.0)]), ValueError, "more than 0"),
-                (lambda: made(sights=[sight("/x")]), ValueError, "/x"),
-                (lambda: made(sights=[sight("/joint/hip/angle", 0)]), ValueError, "scale 0"),
+                (lambda: made(observations=[observation("/x")]), ValueError, "/x"),
+                (lambda: made(observations=[observation("/foot", 0)]), ValueError, "scale 0"),
                 (lambda: made(measures=["plan:control.gains.hip.angle"]), ValueError, "the setting"),
                 (lambda: made(sets={"x": 1}), sinew.InputError, "x"),
                 (lambda: sinew.gym.Box([0, 1], [1]), ValueError, "expected one shape"),

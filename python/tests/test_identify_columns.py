@@ -89,7 +89,7 @@ class Columns(unittest.TestCase):
                 table = identify.Table(bare, columns=columns)
                 self.assertAlmostEqual(identify.geometry(table).report["thread_length_m"], 0.1, 3)
 
-    def test_what_a_file_leaves_open_is_said(self) -> None:
+    def test_what_a_file_leaves_open_is_stated(self) -> None:
         """Each usual number format gives the braid of the plain table."""
         plain = identify.geometry(mesh()).report["parameters"]
         length, diameter = mesh().values()
@@ -142,7 +142,7 @@ class Columns(unittest.TestCase):
                 identify.creep(path)
             same_creep(identify.creep(identify.Table(path, part=2)).report["creep"], plain, 1e-6)
 
-    def test_dates_are_read_as_it_is_said(self) -> None:
+    def test_dates_are_read_as_stated(self) -> None:
         one = settling()
         days = numpy.arange(one["time"].size) * 5 / 86400
         plain = identify.creep(one).report["creep"]
@@ -191,7 +191,7 @@ class Columns(unittest.TestCase):
         with self.assertRaisesRegex(sinew.InputError, "rate"):
             identify.creep(identify.Table(bare, rate="often"))
 
-    def test_rows_without_numbers_are_left_out_where_it_is_said(self) -> None:
+    def test_rows_without_numbers_are_left_out_if_requested(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "gaps.csv")
             length, diameter = mesh().values()

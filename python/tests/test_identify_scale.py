@@ -31,7 +31,7 @@ class Scale(unittest.TestCase):
     def tearDownClass(cls) -> None:
         cls.folder.cleanup()
 
-    def test_one_muscle_tells_nobody_how_far_off_its_like_is(self) -> None:
+    def test_one_muscle_does_not_determine_the_error_for_others(self) -> None:
         short = identify.scale(self.file, 0.18)
         self.assertEqual(short.report["rest_length_m"], 0.18)
         self.assertIsNone(short.report["half_95_N"])

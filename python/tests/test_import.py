@@ -47,7 +47,7 @@ class Import(unittest.TestCase):
         self.assertTrue(numpy.array_equal(again["/joint/hip/angle"], angle))
         self.assertEqual(sinew.read_run(again.folder).summary, again.summary)
 
-    def test_what_is_wrong_is_told(self) -> None:
+    def test_what_is_wrong_is_reported(self) -> None:
         path = self.put("rig.csv", "time [s],a [deg]\n0,1\n1,2\n")
         with self.assertRaisesRegex(sinew.InputError, "hip/angle"):
             sinew.import_recording(path, WALK, map={"/joint/hipp/angle": "a"})

@@ -20,7 +20,7 @@ class Migrate(Refusals):
         self.text = '# ours\n[valve.inlet]   # big\nkind = "2-way"\n'
         self.old.write_text(self.text, encoding="utf-8")
 
-    def test_a_file_without_a_format_says_it_afterwards(self) -> None:
+    def test_a_file_without_a_format_has_it_afterwards(self) -> None:
         told = sinew.migrate(self.old, write=False)
         self.assertEqual(self.old.read_text(encoding="utf-8"), self.text)
         done = sinew.migrate(self.old)

@@ -54,7 +54,7 @@ class Lesson(unittest.TestCase):
 
 
 class Muscle(unittest.TestCase):
-    def test_a_course_is_its_steps(self) -> None:
+    def test_following_equals_single_steps(self) -> None:
         one, other = sinew.DrivenMuscle(RIG), sinew.DrivenMuscle(RIG)
         seen = pulsed(one, 0, 700)
         k = numpy.arange(700)

@@ -25,7 +25,7 @@ class Program(unittest.TestCase):
         self.assertEqual(self.run_module("run", "nowhere.toml").returncode, 1)
         self.assertIn("try run", self.run_module("rnu").stderr)
 
-    def test_where_there_is_none_is_said(self) -> None:
+    def test_a_missing_one_is_reported(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             import shutil
 

@@ -125,7 +125,7 @@ class Simulation(unittest.TestCase):
         leg.advance(1.0)
         self.assertEqual(leg.time, ended)
 
-    def test_one_that_fails_says_of_what(self) -> None:
+    def test_one_that_fails_reports_the_cause(self) -> None:
         leg = sinew.Simulation(WALK, {"actuator.bpa.loss.viscous": 5000.0})
         with self.assertRaises(sinew.RunError) as raised:
             leg.advance(20.0)
@@ -135,7 +135,7 @@ class Simulation(unittest.TestCase):
 
 
 class Threads(unittest.TestCase):
-    def test_two_at_one_simulation_are_told_apart(self) -> None:
+    def test_two_at_one_simulation_are_distinguished(self) -> None:
         leg = sinew.Simulation(WALK, {"sequence.repeat": 30000})
         told: List[str] = []
 
@@ -226,7 +226,7 @@ class Loop(unittest.TestCase):
                     by_hand.change(key, value)
             by_hand.advance(0.01)
             self.assertEqual(list(got), [by_hand.read(n) for n in names])
-        self.assertEqual(list(loop.look()), list(got))
+        self.assertEqual(list(loop.read()), list(got))
         self.assertEqual(values(by_loop), values(by_hand))
 
     def test_many_go_as_one_alone(self) -> None:

@@ -38,7 +38,7 @@ class Sweep(unittest.TestCase):
             alone.summary["joints"]["hip"]["tracking_rms_rad"],
         )
 
-    def test_progress_is_told_and_may_end_it(self) -> None:
+    def test_progress_is_reported_and_may_end_it(self) -> None:
         told: List[Tuple[int, int]] = []
         sinew.sweep(AIR, {"seed": range(1, 40)}, report=ERROR, progress=lambda n, of: told.append((n, of)))
         self.assertEqual(told[-1], (39, 39))

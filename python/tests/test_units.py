@@ -34,7 +34,7 @@ class ShownUnits(Refusals):
         self.assertEqual(label, "in")
         self.assertEqual(sinew.in_units(1e5, "Pa diff", "metric"), (1, "bar"))
 
-    def test_the_environment_says_it_where_the_call_does_not(self) -> None:
+    def test_the_environment_applies_where_the_call_does_not(self) -> None:
         os.environ["SINEW_UNITS"] = "metric"
         self.assertEqual(sinew.shown(0.08, "m"), "80 mm")
         self.assertEqual(sinew.shown(0.08, "m", "length=cm"), "8 cm")

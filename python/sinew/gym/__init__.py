@@ -14,6 +14,6 @@ If Gymnasium is installed, Env is a gymnasium.Env and its spaces are Gymnasium's
 
 from sinew.gym.env import Env, VectorEnv
 from sinew.gym.spaces import Box
-from sinew.gym.tasks import Action, Sight, Task, names, task
+from sinew.gym.tasks import Action, Observation, Task, names, task
 
-__all__ = ["Action", "Box", "Env", "Sight", "Task", "VectorEnv", "names", "task"]
+__all__ = ["Action", "Box", "Env", "Observation", "Task", "VectorEnv", "names", "task"]

@@ -37,31 +37,31 @@ class _Shared:
                 raise ValueError(
                     f"action {action.setting}: found size {action.size}; expected more than 0"
                 )
-        for sight in t.sights:
-            if not sight.scale > 0:
+        for one in t.observations:
+            if not one.scale > 0:
                 raise ValueError(
-                    f"observation {sight.channel}: found scale {sight.scale}; expected more than 0"
+                    f"observation {one.channel}: found scale {one.scale}; expected more than 0"
                 )
         self.experiment = Experiment(t.experiment, dict(t.sets))
-        self.course = _sinew.Course(
+        self.definition = _sinew.EpisodeDefinition(
             Simulation(self.experiment),
             [a.setting for a in t.actions],
             [a.size if a.kind == "offset" else 0.0 for a in t.actions],
             [a.size if a.kind == "factor" else 1.0 for a in t.actions],
-            [s.channel for s in t.sights],
-            [s.middle for s in t.sights],
-            [s.scale for s in t.sights],
+            [o.channel for o in t.observations],
+            [o.middle for o in t.observations],
+            [o.scale for o in t.observations],
             list(t.measures),
             t.begin,
             t.period,
         )
         ones = numpy.ones(len(t.actions))
-        free = numpy.full(len(t.sights), numpy.inf)
+        free = numpy.full(len(t.observations), numpy.inf)
         self.action_space = spaces.box(-ones, ones)
         self.observation_space = spaces.box(-free, free)
 
     def begin(self, seed: int) -> _sinew.Episode:
-        return _sinew.Episode(self.course, Simulation(self.experiment.with_seed(seed)))
+        return _sinew.Episode(self.definition, Simulation(self.experiment.with_seed(seed)))
 
 
 def _clipped(action: numpy.typing.ArrayLike) -> "Optional[numpy.typing.NDArray[numpy.bool_]]":
@@ -172,7 +172,7 @@ class Env(_Base):  # type: ignore[misc]
         self._episode = self._shared.begin(number)
         self._number = number
         self._over = False
-        seen, self._measured = self._episode.look()
+        seen, self._measured = self._episode.observe()
         info: Info = {"seed": number, "time": self._episode.simulation.time}
         return _without_gaps(seen, info), info
 
@@ -188,7 +188,7 @@ class Env(_Base):  # type: ignore[misc]
         try:
             seen, self._measured, ended = episode.step(action)
         except _sinew.RunError as failed:
-            seen, self._measured = episode.look()
+            seen, self._measured = episode.observe()
             ended, terminated, info["failure"] = False, True, str(failed)
         if (beyond := _clipped(action)) is not None:
             info["clipped"] = beyond
@@ -266,10 +266,10 @@ class VectorEnv:
         numbers = [s.next(one) for s, one in zip(self._seeds, seeds)]
         self._episodes = [self._shared.begin(n) for n in numbers]
         self._over[:] = False
-        looks = [e.look() for e in self._episodes]
-        self._measured = numpy.array([measured for _, measured in looks])
+        observed = [e.observe() for e in self._episodes]
+        self._measured = numpy.array([measured for _, measured in observed])
         info: Info = {"seed": numpy.array(numbers)}
-        return _without_gaps(numpy.array([seen for seen, _ in looks]), info), info
+        return _without_gaps(numpy.array([seen for seen, _ in observed]), info), info
 
     def step(self, actions: numpy.typing.ArrayLike) -> Tuple[Any, Any, Any, Any, Info]:
         """Advance all by a period. Returns observations, rewards, terminated, truncated, info."""

@@ -30,7 +30,7 @@ class Action:
 
 
 @dataclasses.dataclass(frozen=True)
-class Sight:
+class Observation:
     """A number of the observation: (value of a channel - middle) / scale, both in its unit."""
 
     channel: str
@@ -44,7 +44,7 @@ class Task:
 
     experiment: its path; sinew.shipped("experiments/…") for one shipped with Sinew.
     sets: settings that override the experiment's, as in sinew.Experiment.
-    actions, sights: the numbers of actions and observations.
+    actions, observations: the numbers of an action and of an observation.
     measures: channels that `reward` and `failed` use, in their units; "plan:KEY" is the plan's value
         of an action's setting, without the action.
     reward: function of the measures before and after a step and its period [s]; returns the reward.
@@ -55,7 +55,7 @@ class Task:
 
     experiment: str
     actions: Sequence[Action]
-    sights: Sequence[Sight]
+    observations: Sequence[Observation]
     measures: Sequence[str]
     reward: Callable[[Any, Any, float], float]
     failed: Optional[Callable[[Any], bool]] = None
@@ -65,19 +65,20 @@ class Task:
 
 
 _angles = tuple(
-    Sight(f"/joint/{joint}/angle", 0.5, middle) for joint, middle in (("hip", 4.9), ("knee", 5.2))
-)
-_desired = tuple(
-    Sight(f"/desired/joint/{joint}/angle", 0.5, middle)
+    Observation(f"/joint/{joint}/angle", 0.5, middle)
     for joint, middle in (("hip", 4.9), ("knee", 5.2))
 )
-_speeds = tuple(Sight(f"/true/joint/{joint}/velocity", 3.0) for joint in ("hip", "knee"))
+_desired = tuple(
+    Observation(f"/desired/joint/{joint}/angle", 0.5, middle)
+    for joint, middle in (("hip", 4.9), ("knee", 5.2))
+)
+_speeds = tuple(Observation(f"/true/joint/{joint}/velocity", 3.0) for joint in ("hip", "knee"))
 _tensions = tuple(
-    Sight(f"/muscle/{muscle}/tension", 200.0)
+    Observation(f"/muscle/{muscle}/tension", 200.0)
     for muscle in ("hip_flexor", "hip_extensor", "knee_flexor", "knee_extensor")
 )
-_stiffness = tuple(Sight(f"/joint/{joint}/stiffness", 4.0) for joint in ("hip", "knee"))
-_ways = (
+_stiffness = tuple(Observation(f"/joint/{joint}/stiffness", 4.0) for joint in ("hip", "knee"))
+_actions = (
     Action("control.angle.hip", "offset", 0.2),
     Action("control.angle.knee", "offset", 0.2),
     Action("control.stiffness.hip", "factor", 2.0),
@@ -102,13 +103,13 @@ def _walk() -> Task:
         experiment=shipped("experiments/walk-test-1.toml"),
         # The thesis's track is only as long as its walk; a faster robot would reach its end.
         sets={"trolley.track_length": 20.0, "sequence.repeat": 4},
-        actions=_ways,
-        sights=_angles
+        actions=_actions,
+        observations=_angles
         + _desired
         + _speeds
         + _stiffness
         + _tensions
-        + (Sight("/plan/phase"), Sight("/true/trolley/velocity", 0.3)),
+        + (Observation("/plan/phase"), Observation("/true/trolley/velocity", 0.3)),
         measures=("/true/trolley/position",),
         reward=_progress,
     )
@@ -121,12 +122,12 @@ def _distance(before: Any, after: Any, period: float) -> float:
 def _kick() -> Task:
     return Task(
         experiment=shipped("experiments/kick.toml"),
-        actions=_ways
+        actions=_actions
         + (
             Action("control.gains.hip.angle", "factor", 3.0),
             Action("control.gains.knee.angle", "factor", 3.0),
         ),
-        sights=_angles + _desired + _speeds + _tensions + (Sight("/plan/phase"),),
+        observations=_angles + _desired + _speeds + _tensions + (Observation("/plan/phase"),),
         measures=_foot,
         reward=_distance,
         period=0.01,
@@ -137,8 +138,8 @@ def _kick() -> Task:
 def _reach() -> Task:
     return Task(
         experiment=shipped("experiments/leg-in-air.toml"),
-        actions=_ways,
-        sights=_angles + _desired + _speeds + _tensions,
+        actions=_actions,
+        observations=_angles + _desired + _speeds + _tensions,
         measures=_foot,
         reward=_distance,
         period=0.02,
@@ -159,7 +160,7 @@ def _hold_stiffness() -> Task:
             Action("control.gains.hip.stiffness", "factor", 3.0),
             Action("control.gains.knee.stiffness", "factor", 3.0),
         ),
-        sights=_angles + _speeds + _stiffness + _tensions,
+        observations=_angles + _speeds + _stiffness + _tensions,
         measures=("/joint/hip/stiffness", "plan:control.stiffness.hip")
         + ("/joint/knee/stiffness", "plan:control.stiffness.knee"),
         reward=_stiffness_error,

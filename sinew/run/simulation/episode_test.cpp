@@ -10,7 +10,7 @@
 #include "sinew/run/setup/buildable.h"
 #include "tests/places.h"
 
-namespace sinew::run::course_test {
+namespace sinew::run::episode_test {
 namespace {
 
 const std::string source = sinew::test::source_dir();
@@ -105,4 +105,4 @@ TEST_F(CourseTest, RefusesWhatThereIsNot) {
 }
 
 }  // namespace
-}  // namespace sinew::run::course_test
+}  // namespace sinew::run::episode_test
