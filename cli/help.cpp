@@ -124,7 +124,7 @@ std::string with_value(const CLI::Option& option, const std::string& names) {
 
 // Returns the description, the words that the value may have, its default, and how often the option
 // may be given.
-std::string words_of(const CLI::Option& option) {
+std::string described_option(const CLI::Option& option) {
   std::string out = option.get_description();
   const bool named = !option.get_positional();
   if (const std::size_t n = name_of_value(out).size(); n > 0) out.erase(0, n + 2);
@@ -149,7 +149,7 @@ std::string section(const CLI::App& command, std::string_view title, bool named,
       rows.push_back(
           {named ? with_value(*option, fmt::format("{}", fmt::join(names_of(*option), ", ")))
                  : option->get_name(),
-           words_of(*option)});
+           described_option(*option)});
   return rows.empty() ? "" : fmt::format("\n{}{}", title, table(rows));
 }
 

@@ -54,10 +54,10 @@ struct DataOptions {
 
 // Options for printing and writing a result.
 struct ResultOptions : Flags {
-  std::string out;     // the parameter file
-  std::string beside;  // another file that some methods write
-  std::string report;  // the page; empty: next to `out`
-  std::string units;   // for printing; empty: the method's own
+  std::string out;          // the parameter file
+  std::string second_file;  // another file that some methods write
+  std::string report;       // the page; empty: next to `out`
+  std::string units;        // for printing; empty: the method's own
   bool no_report = false;
 };
 
@@ -149,7 +149,7 @@ void add_outputs(CLI::App& sub, const MethodHelp& help, ResultOptions& result) {
 
 // Adds a second file that a method writes.
 template <class Settings>
-void add_beside(CLI::App& sub, const Settings&, std::string& file) {
+void add_second_file(CLI::App& sub, const Settings&, std::string& file) {
   if constexpr (std::is_same_v<Settings, identify::JointSettings>)
     sub.add_option("--actuator-out", file, "FILE: actuator file to write");
   if constexpr (std::is_same_v<Settings, identify::ValveSettings>)
@@ -259,7 +259,7 @@ void refuse_to_replace(const std::string& path, bool force, const Replaceable& o
   std::erase(text, ' ');
   if (text.find(old.mark) == text.npos)
     config::fail({path, 0, 0}, "", fmt::format("something that is no {}", old.what),
-                 fmt::format("a name that is free, or that of {}", old.name),
+                 fmt::format("an unused name, or that of {}", old.name),
                  std::string(old.otherwise));
 }
 
@@ -297,8 +297,8 @@ void write_further(const identify::Found& found, const ResultOptions& options) {
 
 // Refuses the second file of a method where it exists already.
 template <class Settings>
-void check_beside(const Options<Settings>& options) {
-  const std::string& file = options.result.beside;
+void check_second_file(const Options<Settings>& options) {
+  const std::string& file = options.result.second_file;
   if (file.empty()) return;
   if (std::is_same_v<Settings, identify::JointSettings>)
     return refuse_to_replace(file, options.result.force, parameter_file);
@@ -307,22 +307,22 @@ void check_beside(const Options<Settings>& options) {
 }
 
 // Writes the second file of a method.
-void write_beside(const identify::Found&, const ResultOptions&) {}
+void write_second_file(const identify::Found&, const ResultOptions&) {}
 
-void write_beside(const identify::JointFound& found, const ResultOptions& options) {
-  write_output(options.beside, found.file(options.beside, 1), options);
+void write_second_file(const identify::JointFound& found, const ResultOptions& options) {
+  write_output(options.second_file, found.file(options.second_file, 1), options);
 }
 
 // The compensated table, where the delays are known.
-void write_beside(const identify::ValveFound& found, const ResultOptions& options) {
-  if (options.beside.empty() || !found.refused.empty()) return;
+void write_second_file(const identify::ValveFound& found, const ResultOptions& options) {
+  if (options.second_file.empty() || !found.refused.empty()) return;
   const identify::TimingFile timing = identify::timing_of(found);
-  run::write_file(options.beside, timing.text);
+  run::write_file(options.second_file, timing.text);
   Messages(options.quiet)
       .note(
           fmt::format("{}: written for {:g} Hz; the delivered duty differs from the commanded one "
                       "by {:.1f} % at most",
-                      options.beside, timing.frequency, 100 * timing.worst));
+                      options.second_file, timing.frequency, 100 * timing.worst));
 }
 
 // --- a method from its options to its files ---
@@ -388,9 +388,9 @@ ExitCode run_method(const Options<Settings>& options, const identify::MethodRow&
   Settings settings = options.settings;
   NeedsOut needs;
   if (options.result.out.empty()) fields(needs, settings);
-  check_beside(options);
+  check_second_file(options);
   const auto found = find(options, row);
-  write_beside(found, options.result);
+  write_second_file(found, options.result);
   return report(found, read_by(options), options.result);
 }
 
@@ -404,7 +404,7 @@ void add_method(CLI::App& app, Action& action) {
   add_data_options(sub, row.tables, options->data);
   SettingOptions rows(sub);
   fields(rows, options->settings);
-  add_beside(sub, options->settings, options->result.beside);
+  add_second_file(sub, options->settings, options->result.second_file);
   add_outputs(sub, help, options->result);
   sub.callback([options, row, &action] {
     refuse_together(*options);

@@ -29,7 +29,7 @@ using namespace sinew::cli;
 
 // Returns the error's text. Where a robot was given in place of an experiment, it names the command
 // that makes an experiment from a robot; the library has no commands.
-std::string words_of(const std::exception& e) {
+std::string message_of(const std::exception& e) {
   const auto* file = dynamic_cast<const config::Error*>(&e);
   if (!file || file->problems().size() != 1) return e.what();
   config::Problem p = file->problems()[0];
@@ -47,7 +47,7 @@ ExitCode run_safely(const Action& action) {
     error("stdout: cannot write the result; make room or choose another place");
   } catch (const std::exception& e) {
     std::fflush(stdout);
-    error(words_of(e));
+    error(message_of(e));
     if (is_of_option(e)) return wrong_usage;
   }
   return failed;

@@ -124,7 +124,7 @@ std::string SettingOptions::names_of(const Row& row) {
   return out;
 }
 
-std::string SettingOptions::words_of(const Row& row) {
+std::string SettingOptions::help_of(const Row& row) {
   const bool file = row.kind == Row::Kind::file && row.option == row.name;  // no argument
   const bool quantity = row.kind == Row::Kind::quantity || row.kind == Row::Kind::quantities;
   return (file ? "FILE: " : quantity ? "QUANTITY: " : "") + std::string(row.doc);

@@ -76,11 +76,11 @@ class SettingOptions : public identify::RowVisitor<SettingOptions> {
 
  private:
   static std::string names_of(const Row& row);
-  static std::string words_of(const Row& row);  // "FILE: robot file"
+  static std::string help_of(const Row& row);  // "FILE: robot file"
 
   template <class Value>
   CLI::Option* add(const Row& row, Value& value) {
-    return sub_.add_option(names_of(row), value, words_of(row));
+    return sub_.add_option(names_of(row), value, help_of(row));
   }
 
   CLI::App& sub_;

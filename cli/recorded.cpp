@@ -48,22 +48,22 @@ struct Alignment {
   std::string align = "start", clock = "none", event;
   double largest_shift = std::numeric_limits<double>::infinity();  // [s]
 
-  report::AlignOptions wish() const;
+  report::AlignOptions align_options() const;
   std::string given() const;  // the setting of one that was given, "align_by"; "" for none
 };
 
-report::AlignOptions Alignment::wish() const {
-  report::AlignOptions wish;
-  wish.event = event;
-  wish.channels = align_by;
-  wish.fit_clock = clock == "fit";
-  wish.largest_shift = largest_shift;
+report::AlignOptions Alignment::align_options() const {
+  report::AlignOptions out;
+  out.event = event;
+  out.channels = align_by;
+  out.fit_clock = clock == "fit";
+  out.largest_shift = largest_shift;
   for (const auto by : {report::Align::sequence, report::Align::event, report::Align::correlation})
-    if (to_text(by) == align) wish.by = by;
+    if (to_text(by) == align) out.by = by;
   // An event or channels choose the way of alignment.
-  if (!event.empty()) wish.by = report::Align::event;
-  if (!align_by.empty() && wish.by == report::Align::start) wish.by = report::Align::correlation;
-  return wish;
+  if (!event.empty()) out.by = report::Align::event;
+  if (!align_by.empty() && out.by == report::Align::start) out.by = report::Align::correlation;
+  return out;
 }
 
 std::string Alignment::given() const {
@@ -77,12 +77,14 @@ std::string Alignment::given() const {
 void add_alignment(CLI::App& sub, Alignment& alignment) {
   sub.add_option("--align", alignment.align, "how to align others with the first (default: start)")
       ->check(one_of({"start", "sequence", "event", "correlation"}));
-  sub.add_option("--event", alignment.event,
-                 "EVENT: for event: '/joint/elbow/angle > 10 deg'; default: clearest first motion");
-  sub.add_option("--align-by", alignment.align_by, "CHANNEL: correlated channels; default: chosen")
+  sub.add_option(
+      "--event", alignment.event,
+      "EVENT: for --align event: \"/joint/elbow/angle > 10 deg\"; default: first clear motion");
+  sub.add_option("--align-by", alignment.align_by,
+                 "CHANNEL: channels to correlate; default: chosen automatically")
       ->expected(1, CLI::detail::expected_max_vector_size);
   sub.add_option("--clock", alignment.clock,
-                 "fit: correct clock rates of other runs; default: none")
+                 "fit: also correct the clock rates of the other runs; default: none")
       ->check(one_of({"none", "fit"}));
   sub.add_option("--within", alignment.largest_shift, "largest shift [s]; default: no limit");
 }
@@ -153,8 +155,8 @@ void refuse_outputs(const CompareOptions& options) {
 ExitCode compare_runs(const CompareOptions& options) {
   const Messages messages(options.quiet);
   refuse_outputs(options);
-  const report::Comparison comparison = run::compare_runs(options.runs, options.alignment.wish(),
-                                                          options.channels, messages.notices());
+  const report::Comparison comparison = run::compare_runs(
+      options.runs, options.alignment.align_options(), options.channels, messages.notices());
 
   // Files come before what is printed: a reader that ends early, such as head, ends the
   // program.
@@ -254,7 +256,8 @@ struct FilmOptions : Flags {
 std::string film_page(const FilmOptions& options, const run::Notices& notices) {
   report::require_page("the film");
   if (options.runs.size() > 1)
-    return report::page(run::compare_runs(options.runs, options.alignment.wish(), {}, notices));
+    return report::page(
+        run::compare_runs(options.runs, options.alignment.align_options(), {}, notices));
   return run::page_of(run::recorded_run(options.runs.front()), options.machine, notices);
 }
 

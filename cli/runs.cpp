@@ -52,7 +52,7 @@ void print_verdicts(const analysis::Summary& summary, const analysis::Machine& m
 
 // --- run ---
 
-struct RunOptions {
+struct RunCommandOptions {
   run::RunRequest run;
   double pace = 0;  // simulated seconds per second of wall time; 0: no limit
   bool json = false, quiet = false;
@@ -70,7 +70,8 @@ void print_stored(const run::StoredRun& kept, bool json, const units::ShownUnits
     messages.note(fmt::format("to see it, open {}", (kept.folder / run::report_name).string()));
 }
 
-void tell(const run::StoredRun& kept, const RunOptions& options, const Messages& messages) {
+void report_run(const run::StoredRun& kept, const RunCommandOptions& options,
+                const Messages& messages) {
   const config::UnitsToShow units =
       chosen_units(options.run.units, units::UnitSet::si, kept.folder / run::resolved_name);
   print_stored(kept, options.json, units.is_requested ? &units.units : nullptr,
@@ -78,7 +79,8 @@ void tell(const run::StoredRun& kept, const RunOptions& options, const Messages&
 }
 
 // Runs the experiment, with its log where there is one.
-run::Outcome run_logged(const RunOptions& options, run::RunStorage& kept, Interrupt& interrupt) {
+run::Outcome run_logged(const RunCommandOptions& options, run::RunStorage& kept,
+                        Interrupt& interrupt) {
   std::atomic<std::int64_t> tick{0};
   run::RunOptions run_options{.pace = options.pace, .progress = &tick};
   kept.apply(run_options);
@@ -91,7 +93,7 @@ run::Outcome run_logged(const RunOptions& options, run::RunStorage& kept, Interr
   return run::run(kept.experiment(), run_options);
 }
 
-ExitCode run_experiment(const RunOptions& options) {
+ExitCode run_experiment(const RunCommandOptions& options) {
   const Messages messages(options.quiet);
   if (options.pace > 0 && run::has_own_clock(options.run.port))
     config::fail({options.run.experiment, 0, 0}, "--pace", fmt::format("{}", options.pace),
@@ -102,7 +104,7 @@ ExitCode run_experiment(const RunOptions& options) {
   run::RunRequest request = options.run;
   request.stop = &interrupt.requested();
   run::RunStorage kept(request, messages.notices());
-  tell(kept.store(run_logged(options, kept, interrupt)), options, messages);
+  report_run(kept.store(run_logged(options, kept, interrupt)), options, messages);
   return ok;
 }
 
@@ -125,7 +127,7 @@ void add_folder(CLI::App& sub, Request& request) {
   add_sets(sub, request.sets);
 }
 
-void add_run_options(CLI::App& sub, const std::string& port, RunOptions& options) {
+void add_run_options(CLI::App& sub, const std::string& port, RunCommandOptions& options) {
   run::RunRequest& request = options.run;
   sub.add_option(port, request.port,
                  "PLACE: what to run on: simulated, serial:DEVICE[@RATE], emulated:FILE, "
@@ -147,7 +149,7 @@ void add_run_options(CLI::App& sub, const std::string& port, RunOptions& options
 struct ViewOptions {
   std::vector<std::string> what;  // recorded: a run, a study or two
   std::string machine;
-  RunOptions live;          // .run.experiment empty: a recorded one
+  RunCommandOptions live;   // .run.experiment empty: a recorded one
   std::optional<int> port;  // 0: a free one
   bool open = true, once = false, paused = false;
 };
@@ -181,7 +183,7 @@ ExitCode view_live(const ViewOptions& o) {
                      .once = o.once,
                      .kept =
                          [&](const auto& kept) {
-                           tell(kept, o.live, messages);
+                           report_run(kept, o.live, messages);
                            std::fflush(stdout);
                          }},
                     messages.notices());
@@ -291,8 +293,8 @@ run::StoredRun import_out_dat(const ImportOptions& options, const Messages& mess
                              messages.notices());
 }
 
-ExitCode tell_kept(const run::StoredRun& kept, const ImportOptions& options,
-                   const Messages& messages) {
+ExitCode report_import(const run::StoredRun& kept, const ImportOptions& options,
+                       const Messages& messages) {
   for (const std::string& text : kept.summary.warnings) messages.warning(text);
   print_stored(kept, options.json, nullptr, "", messages);
   return ok;
@@ -311,12 +313,12 @@ ExitCode import_recording(const ImportOptions& given) {
   take_pairs(options);
   options.request.join_at_end = options.join == "end";
   if (is_out_dat(options.request.files.front()))
-    return tell_kept(import_out_dat(options, messages), options, messages);
+    return report_import(import_out_dat(options, messages), options, messages);
   std::atomic<std::int64_t> read{0};
   options.request.read = &read;
   const ProgressBar bar(read, bytes_of(options.request.files),
                         {.each = 1e-6, .unit = "MB", .decimals = 0}, options.quiet);
-  return tell_kept(run::import_run(options.request, messages.notices()), options, messages);
+  return report_import(run::import_run(options.request, messages.notices()), options, messages);
 }
 
 void add_mapping_options(CLI::App& sub, ImportOptions& options) {
@@ -353,8 +355,9 @@ struct AnalyzeOptions : Flags {
 };
 
 // The source reports whole runs, so a part of a run has no verdict.
-ExitCode tell(const AnalyzeOptions& options, const Messages& messages, const signals::Table& table,
-              analysis::Machine machine, const config::UnitsToShow& units) {
+ExitCode report_analysis(const AnalyzeOptions& options, const Messages& messages,
+                         const signals::Table& table, analysis::Machine machine,
+                         const config::UnitsToShow& units) {
   if (!table.complete) machine.reported.clear();
   const analysis::Analysis a(table, std::move(machine));
   const analysis::Summary& summary = a.summary;
@@ -388,7 +391,7 @@ ExitCode analyze_run(const AnalyzeOptions& options) {
         " was cut off or is damaged; the numbers are of what stands before, without verdicts");
 
   const config::UnitsToShow units = chosen_units(options.units, units::UnitSet::si, &file);
-  return tell(options, messages, table, analysis::read_machine(file), units);
+  return report_analysis(options, messages, table, analysis::read_machine(file), units);
 }
 
 }  // namespace
@@ -397,7 +400,7 @@ void add_run(CLI::App& app, Action& action) {
   CLI::App& sub =
       subcommand(app, "run", "Run an experiment and keep its log and numbers in a new folder",
                  "sinew run experiments/walk-test-1.toml --set \"trolley.drag=0 lbf\"");
-  RunOptions& options = runs(sub, action, run_experiment);
+  RunCommandOptions& options = runs(sub, action, run_experiment);
   sub.add_option("EXPERIMENT", options.run.experiment, "experiment file")->required();
   add_run_options(sub, "--port", options);
   sub.add_option("--pace", options.pace, "simulated seconds per real second; default: 0, no limit")
@@ -439,8 +442,9 @@ void add_view(CLI::App& app, Action& action) {
 }
 
 void add_replay(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "replay", "Replay a recording with today's controller or plant",
-                             "sinew replay runs/walk-test-1/1 --of plant -o runs/replayed");
+  CLI::App& sub =
+      subcommand(app, "replay", "Replay a recording with the present controller or plant",
+                 "sinew replay runs/walk-test-1/1 --of plant -o runs/replayed");
   ReplayOptions& options = runs(sub, action, replay_run);
   sub.add_option("DIR", options.request.run, "run folder or log file")->required();
   sub.add_option(

@@ -58,19 +58,19 @@ class File {
   // Both transfer all bytes. The program ends if the other end is closed.
   void write(std::span<const std::uint8_t> bytes) const {
     for (std::uint32_t left; !bytes.empty(); bytes = bytes.last(left)) {
-      left = ask(0x05, bytes.data(), bytes.size());  // SYS_WRITE
+      left = call(0x05, bytes.data(), bytes.size());  // SYS_WRITE
       if (left >= bytes.size()) fail("the host does not listen any more\n");
     }
   }
   void read(std::span<std::uint8_t> bytes) const {
     for (std::uint32_t left; !bytes.empty(); bytes = bytes.last(left)) {
-      left = ask(0x06, bytes.data(), bytes.size());  // SYS_READ
+      left = call(0x06, bytes.data(), bytes.size());  // SYS_READ
       if (left >= bytes.size()) fail("the host sends nothing any more\n");
     }
   }
 
  private:
-  std::uint32_t ask(std::uint32_t operation, const void* data, std::size_t size) const {
+  std::uint32_t call(std::uint32_t operation, const void* data, std::size_t size) const {
     const std::uint32_t block[] = {static_cast<std::uint32_t>(handle_),
                                    reinterpret_cast<std::uint32_t>(data), size};
     return static_cast<std::uint32_t>(semihost(operation, block));

@@ -51,7 +51,7 @@ std::vector<int> repeated_steps(const Figures& f) {
   if (!steps.empty()) steps.erase(steps.begin());
   if (!f.machine.robot.trolley.present || !f.record.has_sequence()) return steps;
   const std::size_t stop = stop_row(f, f.record.column("/true/trolley/position"));
-  for (const Stretch& s : f.record.stretches())
+  for (const PhaseSpan& s : f.record.phase_spans())
     if (s.last > stop) std::erase(steps, s.step);
   return steps;
 }
@@ -61,15 +61,15 @@ class StepPaths {
  public:
   StepPaths(const Record& record, const Column& x, const Column& y)
       : record_(record), x_(x), y_(y) {
-    in_order_ = std::ranges::is_sorted(record.stretches(), {}, &Stretch::step);
+    in_order_ = std::ranges::is_sorted(record.phase_spans(), {}, &PhaseSpan::step);
   }
 
   Path of(int step) const {
     Path out;
-    const auto& all = record_.stretches();
-    const auto first = std::ranges::lower_bound(all, step, {}, &Stretch::step);
+    const auto& all = record_.phase_spans();
+    const auto first = std::ranges::lower_bound(all, step, {}, &PhaseSpan::step);
     for (auto at = in_order_ ? first : all.begin(); at != all.end(); ++at) {
-      const Stretch s = *at;
+      const PhaseSpan s = *at;
       if (s.step == step)
         add(s, out);
       else if (in_order_)
@@ -79,7 +79,7 @@ class StepPaths {
   }
 
  private:
-  void add(const Stretch& s, Path& out) const {
+  void add(const PhaseSpan& s, Path& out) const {
     const auto px = at_progress(x_, s.first, s.last, points_per_phase);
     const auto py = at_progress(y_, s.first, s.last, points_per_phase);
     for (std::size_t k = 0; k < px.size(); ++k) out.push_back({px[k], py[k]});
@@ -95,7 +95,7 @@ class StepPaths {
 // compared [s].
 std::vector<double> point_weights(const Record& record, const std::vector<int>& steps) {
   std::vector<double> out;
-  for (const Stretch& s : record.stretches())
+  for (const PhaseSpan& s : record.phase_spans())
     if (!steps.empty() && s.step == steps.front())
       out.insert(out.end(), points_per_phase, record.lasting(s));
   return out;
@@ -161,8 +161,8 @@ void add_stick(Figures& f) {
 }
 
 // Returns the end of the hold after the kick, or of the kick itself at the sequence's end.
-std::size_t end_of_hold(const Record& record, const Stretch& kick) {
-  for (const Stretch& s : record.stretches())
+std::size_t end_of_hold(const Record& record, const PhaseSpan& kick) {
+  for (const PhaseSpan& s : record.phase_spans())
     if (s.first == kick.last) return s.last;
   return kick.last;
 }
@@ -172,7 +172,7 @@ std::size_t end_of_hold(const Record& record, const Stretch& kick) {
 // may be later and beyond.
 void add_kick(Figures& f) {
   const int kick = find_phase(f.machine, "kick");
-  const std::optional<Stretch> s = kick >= 0 ? f.record.last_of(kick) : std::nullopt;
+  const std::optional<PhaseSpan> s = kick >= 0 ? f.record.last_of(kick) : std::nullopt;
   const Column x = f.record.column("/foot/position", "x");
   if (!s || x.empty()) return;
   const std::size_t end = end_of_hold(f.record, *s);

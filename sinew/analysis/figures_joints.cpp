@@ -17,8 +17,8 @@ constexpr std::string_view relaxed = "relaxed";  // prefix of such a phase's nam
 
 // Returns the row at which the relaxed angle of a joint is taken; rows() if no row qualifies.
 std::size_t relaxed_row(const Figures& f) {
-  for (std::size_t i = f.record.stretches().size(); i-- > 0;) {
-    const Stretch s = f.record.stretches()[i];
+  for (std::size_t i = f.record.phase_spans().size(); i-- > 0;) {
+    const PhaseSpan s = f.record.phase_spans()[i];
     if (phase_name(f.machine, s.phase).substr(0, relaxed.size()) == relaxed) return s.last - 1;
   }
 
@@ -49,7 +49,7 @@ void add_angles(Figures& f, const std::string& joint, const std::string& key) {
 Column later_swings(const Figures& f) {
   const Column& swing = f.record.swing();
   Column out = f.record.new_column();
-  for (const Stretch& s : f.record.stretches()) {
+  for (const PhaseSpan& s : f.record.phase_spans()) {
     while (out.size() < s.first) out.push_back(swing[out.size()]);
     while (out.size() < s.last) out.push_back(s.step == 0 ? 0.0 : swing[out.size()]);
   }
@@ -106,7 +106,7 @@ void add_end(Figures& f, const std::string& key, std::size_t row) {
 // Returns the mean duration over all occurrences of a phase  [s].
 double mean_duration(const Record& record, int phase) {
   double sum = 0, n = 0;
-  for (const Stretch& s : record.stretches()) {
+  for (const PhaseSpan& s : record.phase_spans()) {
     if (s.phase != phase) continue;
     sum += record.lasting(s);
     ++n;
@@ -122,7 +122,7 @@ struct Turns {
 
 Turns turns_of(const Record& record, int phase, const Column& error) {
   Turns out;
-  for (const Stretch& s : record.stretches()) {
+  for (const PhaseSpan& s : record.phase_spans()) {
     if (s.phase != phase) continue;
     const auto points = turning_points(error.slice(s.first, s.last), least_return);
     const int n = static_cast<int>(points.size());
@@ -183,16 +183,16 @@ void add_joints(Figures& f) {
 
 void add_phases(Figures& f) {
   for (std::size_t i = 0; i < f.machine.phases.size(); ++i) {
-    const std::optional<Stretch> stretch = f.record.last_of(static_cast<int>(i));
-    if (!stretch) continue;
+    const std::optional<PhaseSpan> span = f.record.last_of(static_cast<int>(i));
+    if (!span) continue;
     const std::string key = "phases." + f.machine.phases[i] + ".";
     f.summary.add(key + "mean_duration_s", mean_duration(f.record, static_cast<int>(i)));
-    add_end(f, key, stretch->last - 1);
+    add_end(f, key, span->last - 1);
     for (const robot::Joint& j : f.machine.robot.joints)
       add_turns(f, key, static_cast<int>(i), j.name);
-    add_end_of(f, key + "foot.end_force_true_N", "/true/foot/force", "y", stretch->last - 1);
+    add_end_of(f, key + "foot.end_force_true_N", "/true/foot/force", "y", span->last - 1);
     add_end_of(f, key + "cylinder.end_position_true_m", "/true/cylinder/position", "value",
-               stretch->last - 1);
+               span->last - 1);
   }
 }
 

@@ -76,7 +76,7 @@ void add_endurance(Figures& f) {
   double steps = 0;
   for (const int step : f.record.complete_steps()) {
     std::size_t last = 0;
-    for (const Stretch& s : f.record.stretches())
+    for (const PhaseSpan& s : f.record.phase_spans())
       if (s.step == step) last = s.last;
     if (last <= row) ++steps;
   }

@@ -68,7 +68,7 @@ Log without_air(const test::Of& desired) {
   return log;
 }
 
-TEST(UnusedAir, IsToldOfAPlanThatMovesAJoint) {
+TEST(UnusedAir, IsReportedOfAPlanThatMovesAJoint) {
   const Log log = without_air([](double t) { return 4.8 + 0.1 * t; });
   const auto found = unused_air(log.table, machine());
   ASSERT_EQ(found.size(), 1u);
@@ -77,14 +77,14 @@ TEST(UnusedAir, IsToldOfAPlanThatMovesAJoint) {
             "nothing");
 }
 
-TEST(UnusedAir, IsToldOfAnInletThatWasToldToOpen) {
+TEST(UnusedAir, IsReportedOfAnInletThatWasCommandedToOpen) {
   Log log = without_air(constant(4.8));
   EXPECT_TRUE(unused_air(log.table, machine()).empty()) << "joints that are held may need no air";
   log.scalar("/muscle/knee_flexor/inlet_duty", constant(0.01));
   EXPECT_EQ(unused_air(log.table, machine()).size(), 1u);
 }
 
-TEST(UnusedAir, IsNotKnownOfHardwareAndNotSaidOfAJointLeftAlone) {
+TEST(UnusedAir, IsUnknownForHardwareAndNotReportedOfAnIdleJoint) {
   Log hardware = walk(2);
   hardware.scalar("/desired/joint/hip/angle", [](double t) { return 4.8 + 0.1 * t; });
   EXPECT_TRUE(unused_air(hardware.table, machine()).empty());
@@ -97,7 +97,7 @@ TEST(UnusedAir, IsNotKnownOfHardwareAndNotSaidOfAJointLeftAlone) {
 
 // --- track ---
 
-TEST(EndedTracks, AreToldWithTheInstantThatTheSummaryHas) {
+TEST(EndedTracks, AreReportedWithTheTimeInTheSummary) {
   Machine m = machine();
   m.robot.trolley.present = true;
   m.robot.trolley.track_length = 0.1;
@@ -134,7 +134,7 @@ TEST(OverturnedJoints, GoRoundByMoreThanATurn) {
   EXPECT_LT(found[0].spans[0].from, 0.9) << "a muscle ends before";
 }
 
-TEST(OverturnedJoints, AskMoreOfAMuscleThanItsThreadHas) {
+TEST(OverturnedJoints, RequireMoreOfAMuscleThanItsThreadHas) {
   // 3.15 in + pi/2 in = 119.9 mm; the thread has 107 mm.
   const auto found = turned([](double t) { return (278 + (t < 1 ? 0 : 90)) * degree; });
   ASSERT_EQ(found.size(), 1u);

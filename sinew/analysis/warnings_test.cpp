@@ -74,7 +74,7 @@ TEST(Warnings, OfTimesLessThanATenthOfASecondApartAreOne) {
   EXPECT_NEAR(found[0].spans[0].to, 1.1, 1e-9);
 }
 
-TEST(Warnings, TellASaturatedDutyFromAHighOne) {
+TEST(Warnings, DistinguishASaturatedDutyFromAHighOne) {
   Machine m = machine();
   ASSERT_FALSE(m.robot.muscles.empty());
   const std::string name = m.robot.muscles[0].name;
@@ -104,7 +104,7 @@ TEST(Warnings, SpeakOfOneAndOfMany) {
   EXPECT_EQ(rejected_commands(log.table)[0].text, "2 ticks came later than announced");
 }
 
-TEST(Warnings, AreInTheSummaryAsTheyAreTold) {
+TEST(Warnings, AreInTheSummaryAsTheyAreReported) {
   const Log log = test::walk(1).scalar("/plan/unreachable", constant(1));
   EXPECT_EQ(summarize(log.table, machine()).warnings, texts(warnings(log.table, machine())));
   EXPECT_EQ(summarize(log.table, machine()).warnings.size(), 1u);
@@ -122,7 +122,7 @@ TEST(Warnings, CountOverrunsThatAreLoggedAsASum) {
   EXPECT_NEAR(found[0].spans[0].from, 0.26, 1e-9);
 }
 
-TEST(Warnings, TellOfALogThatWasCutAndOfRollersInTheAir) {
+TEST(Warnings, ReportALogThatWasCutAndRollersInTheAir) {
   Log log = test::walk(1).scalar("/true/roller/front/load",
                                  [](double t) { return t < 0.095 ? -1.0 : 1.0; });
   log.table.complete = false;

@@ -13,7 +13,7 @@ namespace sinew::config {
 
 namespace {
 
-std::string in_words(const Range& range, std::string_view unit) {
+std::string describe_range(const Range& range, std::string_view unit) {
   const std::string low = format_quantity(range.low, unit, unit);
   const std::string high = format_quantity(range.high, unit, unit);
   std::string out = range.above ? "more than " + low : low;
@@ -32,7 +32,7 @@ void refuse_outside(std::string_view name, const std::string& text, double si,
   std::string found = text;
   const std::string plain = format_quantity(si, unit, unit);
   if (text != in_quotes(plain) && text != plain) found += ", which is " + plain;
-  fail({std::string(name), 0, 0}, "", found, in_words(range, unit));
+  fail({std::string(name), 0, 0}, "", found, describe_range(range, unit));
 }
 
 }  // namespace

@@ -221,7 +221,7 @@ void check_latency(const DoctorOptions& options, Findings& out) {
   const LatencyClass c = class_of(latency);
   out.push_back(
       {"timer latency", "", c == LatencyClass::real_time ? Verdict::good : Verdict::advice,
-       in_words(latency), "an edge of a valve is as late as the wake-up before it",
+       describe_latency(latency), "an edge of a valve is as late as the wake-up before it",
        c == LatencyClass::real_time ? ""
                                     : "sinew doctor   # again, once the advice above is followed"});
 }

@@ -159,7 +159,7 @@ TEST_F(Doctor, LimitsThatForbidRealTimeAreAdviceAndRootHasNone) {
   for (const Finding& f : look()) EXPECT_EQ(f.verdict, Verdict::good) << f.subject;
 }
 
-TEST_F(Doctor, AKernelWithoutAPromiseIsAdviceHoweverTheOtherTellsIt) {
+TEST_F(Doctor, AKernelWithoutAPromiseIsAdviceHoweverTheOtherReportsIt) {
   put("proc/sys/kernel/version", "#1 SMP PREEMPT_DYNAMIC Debian 6.1.99-1");
   EXPECT_EQ(find(look(), "kernel").verdict, Verdict::good) << "/sys/kernel/realtime says 1";
   fs::remove(root_ / "sys/kernel/realtime");
@@ -176,14 +176,14 @@ TEST_F(Doctor, ASlowClockAndOneProcessorThatSlowsDownAreAdvice) {
   EXPECT_EQ(only("CPU governor").found, "powersave");
 }
 
-TEST_F(Doctor, AnAdapterThatCollectsFor16MillisecondsIsToldHowToStop) {
+TEST_F(Doctor, AnAdapterThatCollectsFor16MillisecondsIsReportedWithTheRemedy) {
   put("sys/bus/usb-serial/devices/ttyUSB0/latency_timer", "16");
   const Finding said = only("USB adapter");
   EXPECT_EQ(said.found, "ttyUSB0 collects bytes for 16 ms");
   EXPECT_EQ(said.todo, "echo 1 | sudo tee /sys/bus/usb-serial/devices/ttyUSB0/latency_timer");
 }
 
-TEST_F(Doctor, ALateTimerIsAdviceAndSaidByItsClass) {
+TEST_F(Doctor, ALateTimerIsAdviceWithItsClass) {
   const Finding late = find(look({1e-6, 2e-4, 5e-3, 10'000}), "timer latency");
   EXPECT_EQ(late.verdict, Verdict::advice);
   EXPECT_TRUE(late.found.starts_with("unfit: ")) << late.found;

@@ -30,7 +30,7 @@ TEST(Latency, AClassIsAPromiseOfATick) {
   EXPECT_EQ(class_of({.most = 1e-5, .worst = 5.1e-5}), LatencyClass::usual);
   EXPECT_EQ(class_of({.most = 1e-4, .worst = 1}), LatencyClass::usual);
   EXPECT_EQ(class_of({.most = 1.1e-4, .worst = 1}), LatencyClass::unfit);
-  EXPECT_EQ(in_words({1e-6, 12e-6, 31e-6, 10'000}),
+  EXPECT_EQ(describe_latency({1e-6, 12e-6, 31e-6, 10'000}),
             "real-time: 10000 wake-ups, worst 31 us, 99.9 % within 12 us");
 }
 
@@ -46,7 +46,7 @@ TEST(TickTimer, NoTickComesBeforeItsTime) {
   }
 }
 
-TEST(TickTimer, WhatHasPassedIsToldAsTicksBehind) {
+TEST(TickTimer, WhatHasPassedIsReportedAsTicksBehind) {
   TickTimer beat;
   beat.start();
   sleep_until_ns(now_ns() + 3'000'000);

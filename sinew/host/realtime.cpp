@@ -75,7 +75,7 @@ LatencyClass class_of(const Latency& latency, double tick) {
   return latency.most <= tick ? LatencyClass::usual : LatencyClass::unfit;
 }
 
-std::string in_words(const Latency& l, double tick) {
+std::string describe_latency(const Latency& l, double tick) {
   const LatencyClass c = class_of(l, tick);
   const char* name = c == LatencyClass::real_time ? "real-time"
                      : c == LatencyClass::usual   ? "usual"

@@ -64,7 +64,7 @@ Latency latency_of(std::vector<double> late);
 LatencyClass class_of(const Latency& latency, double tick = signals::tick_seconds);
 
 // Returns the latency as text: "real-time: 10000 wake-ups, worst 31 us, 99.9 % within 12 us".
-std::string in_words(const Latency& latency, double tick = signals::tick_seconds);
+std::string describe_latency(const Latency& latency, double tick = signals::tick_seconds);
 
 // Monotonic clock in ticks, for a loop that drives hardware and sleeps from tick to tick.
 

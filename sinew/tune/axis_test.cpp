@@ -72,7 +72,7 @@ TEST(Axis, ARangesTextsAreItsNumbers) {
   }
 }
 
-TEST(Axis, SaysWhatIsWrong) {
+TEST(Axis, ReportsWhatIsWrong) {
   EXPECT_NE(message("joint.hip.angle_gain").find("expected KEY=a,b,c"), std::string::npos);
   EXPECT_NE(message("k=1:2").find("from:to:how many"), std::string::npos);
   EXPECT_NE(message("k=1:2:x in").find("from:to:how many"), std::string::npos);

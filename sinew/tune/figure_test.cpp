@@ -30,7 +30,7 @@ std::string message(Parse parse) {
   return "";
 }
 
-TEST(Figure, IsShownInTheUnitThatIsAskedFor) {
+TEST(Figure, IsShownInTheRequestedUnit) {
   const auto figures =
       parse_figures("trolley.distance_m, trolley.distance_m [in],passiveness [%],passiveness");
   ASSERT_EQ(figures.size(), 4U);
@@ -45,7 +45,7 @@ TEST(Figure, IsShownInTheUnitThatIsAskedFor) {
   EXPECT_EQ(parse_figures("air_used_kg")[0].cell(summary()), "") << "absent";
 }
 
-TEST(Figure, SaysWhatIsWrong) {
+TEST(Figure, ReportsWhatIsWrong) {
   const auto of = [](std::string_view text) { return message([=] { parse_figures(text); }); };
   EXPECT_NE(of("trolley.distance_m [lb]").find("a unit of m (length)"), std::string::npos);
   EXPECT_NE(of("trolley.distance_m [in").find("a bracket that closes"), std::string::npos);
@@ -89,7 +89,7 @@ TEST(Largest, FindsTheEdgeOfAKnownFunction) {
   }
 }
 
-TEST(Largest, SaysWhereThereIsNoEdge) {
+TEST(Largest, ReportsWhereThereIsNoEdge) {
   const std::vector<double> values = {1, 2, 3};
   EXPECT_EQ(largest(values, 5, [](double) { return false; }).is, Largest::Is::never);
   const Largest all = largest(values, 5, [](double) { return true; });

@@ -55,7 +55,7 @@ TEST_P(EachKind, RangesDoNotFollowEachOther) {
 INSTANTIATE_TEST_SUITE_P(Sample, EachKind,
                          ::testing::Values(Kind::random, Kind::latin, Kind::sobol));
 
-TEST(Sample, FirstPointsStayWhenMoreAreAskedFor) {
+TEST(Sample, FirstPointsStayWhenMoreAreRequested) {
   for (const Kind kind : {Kind::random, Kind::sobol}) {
     const std::vector<double> few = shares(sample(kind, 3, 100)),
                               more = shares(sample(kind, 3, 777));
@@ -138,7 +138,7 @@ TEST(Range, ScalesKeepTheirEnds) {
   }
 }
 
-TEST(Range, SaysWhatIsWrong) {
+TEST(Range, ReportsWhatIsWrong) {
   const auto of = [](const char* text) -> std::string {
     try {
       parse_range(text);

@@ -63,7 +63,7 @@ TEST(Sweep, IsTheSameForAnyNumberOfLanes) {
   for (int lanes : {2, 4, 8}) EXPECT_EQ(table(gains(), 1, lanes), one) << lanes;
 }
 
-TEST(Sweep, ARowIsWhatTheSingleRunSays) {
+TEST(Sweep, ARowEqualsTheSingleRun) {
   const Sweep s = gains();
   const std::vector<Row> rows = sweep(s, {.threads = 2});
   ASSERT_EQ(rows.size(), 6U);
@@ -253,7 +253,7 @@ class Plan : public ::testing::Test {
       (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".toml");
 };
 
-TEST_F(Plan, SaysWhatTheCommandLineSays) {
+TEST_F(Plan, PrintsWhatTheCommandLinePrints) {
   const std::string name =
       file("format = \"sinew.plan/1\"\ntitle = \"gains\"\nexperiment = \"" + leg +
            "\"\nvary = [\"joint.hip.angle_gain=0.02,0.04 %/count\"]\n"
@@ -295,7 +295,7 @@ TEST_F(Plan, Samples) {
   EXPECT_EQ(points(s), 24U);
 }
 
-TEST_F(Plan, SaysWhatIsWrong) {
+TEST_F(Plan, ReportsWhatIsWrong) {
   const std::string start = "format = \"sinew.plan/1\"\ntitle = \"t\"\nexperiment = \"e.toml\"\n";
   const auto of = [&](const std::string& text) {
     const std::string name = file(text);

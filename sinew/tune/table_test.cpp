@@ -62,7 +62,7 @@ TEST_F(TableFileTest, RowsOfATableThatDidNotBecomeWholeStay) {
   EXPECT_EQ(text_of(part), "a,status\n1,ok\n");
 }
 
-TEST_F(TableFileTest, AFailureIsKeptUntilItIsAskedFor) {
+TEST_F(TableFileTest, AFailureIsKeptUntilItIsRequested) {
   TableFile table(headings_, [](std::string_view) { throw std::runtime_error("full"); });
   EXPECT_FALSE(table.add({"1", "ok"}));
   EXPECT_FALSE(table.add({"2", "ok"}));

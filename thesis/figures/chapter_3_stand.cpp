@@ -132,7 +132,7 @@ constexpr const char* simulation = "The simulation of appendix A with steps that
 // Adds the comparisons with values of appendix A and the text that are in the experiment's file.
 void add_reported(Exhibit& e, const Run& run) {
   for (const analysis::Verdict& v : analysis::compare(run.summary, run.stand.reported))
-    e.claims.push_back(in_words(v));
+    e.claims.push_back(described_claim(v));
 }
 
 double of(const Run& run, const char* key) {

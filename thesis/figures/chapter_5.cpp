@@ -175,7 +175,7 @@ report::Plot scan(const Schedule& s) {
   const std::string source = "the low level's scan, from robots/leg/robot.toml";
   for (std::size_t i = 0; i < s.joint_controller.conversions; ++i) {
     const signals::Conversion& c = s.joint_controller.conversion[i];
-    rows.add(in_words(s.experiment.robot.sensors[c.channel.index].name),
+    rows.add(spaced_name(s.experiment.robot.sensors[c.channel.index].name),
              {{c.start * ms_per_tick, c.read * ms_per_tick}}, source, 0);
   }
   for (std::size_t j = 0; j < s.joint_controller.joints; ++j) {

@@ -43,7 +43,7 @@ Exhibit figure_6_1(const LegRun& run) {
   int color = 0;
   for (const char* phase : {"swing", "foot_plant", "propulsion"}) {
     // Extended to the next phase's first row, so that lines meet.
-    Curve c = run.path(in_words(phase), desired_foot, run.phase(phase));
+    Curve c = run.path(spaced_name(phase), desired_foot, run.phase(phase));
     c.color = color++;
     for (std::size_t i = 0; i + 1 < c.xs.size(); ++i)
       off = std::max(off, std::fabs(c.ys[i] - planned_y(phase, c.xs[i])));
@@ -150,7 +150,7 @@ Exhibit figure_6_5(const LegRun& run) {
   double others = 0;
   for (int i = 0; i < 4; ++i) {
     const std::string muscle = muscles[i], topic = "/muscle/" + muscle + "/tension";
-    curves.push_back(run.curve(in_words(muscle), {topic}, run.sequence(), i));
+    curves.push_back(run.curve(spaced_name(muscle), {topic}, run.sequence(), i));
     if (muscle != "hip_extensor")
       others = std::max(others, analysis::largest(run.rows({topic}), run.record().sequence()));
   }
@@ -287,7 +287,7 @@ Exhibit duties(const LegRun& run, const std::string& number, const std::string& 
     curves.push_back(std::move(c));
     claims.push_back(
         Section("table 6-4")
-            .number(fitted, "Mean duty cycle of the " + in_words(d.muscle) + "'s " + d.valve,
+            .number(fitted, "Mean duty cycle of the " + spaced_name(d.muscle) + "'s " + d.valve,
                     std::to_string(static_cast<int>(d.reported)) + " %", "mean over the phases",
                     analysis::mean(run.rows({topic}), run.record().sequence()), "%",
                     analysis::percentage(d.reported)));

@@ -12,26 +12,26 @@ namespace {
 
 using enum config::StatementClass;
 
-using analysis::Column, analysis::Stretch;
+using analysis::Column, analysis::PhaseSpan;
 
 // Returns each stretch of the phase, except in steps before `from_step`.
-std::vector<Stretch> stretches(const LegRun& run, std::string_view phase, int from_step = 0) {
-  std::vector<Stretch> out;
-  for (const Stretch& s : run.record().stretches())
+std::vector<PhaseSpan> stretches(const LegRun& run, std::string_view phase, int from_step = 0) {
+  std::vector<PhaseSpan> out;
+  for (const PhaseSpan& s : run.record().phase_spans())
     if (run.machine().phases[static_cast<std::size_t>(s.phase)] == phase && s.step >= from_step)
       out.push_back(s);
   return out;
 }
 
 template <class Of>
-double mean_of(const std::vector<Stretch>& list, Of of) {
+double mean_of(const std::vector<PhaseSpan>& list, Of of) {
   double sum = 0;
-  for (const Stretch& s : list) sum += of(s);
+  for (const PhaseSpan& s : list) sum += of(s);
   return sum / static_cast<double>(list.size());
 }
 
 // Returns the number of rows after which y stays above the level.
-std::size_t passes(const Column& y, const Stretch& s, double level) {
+std::size_t passes(const Column& y, const PhaseSpan& s, double level) {
   std::size_t at = s.first;
   for (std::size_t i = s.first; i < s.last; ++i)
     if (y[i] < level) at = i + 1;
@@ -41,7 +41,7 @@ std::size_t passes(const Column& y, const Stretch& s, double level) {
 // Returns the delay of the hip at 280 deg on its way forward, as a share of swing [%].
 double lag(const LegRun& run) {
   const Column is = run.rows({"/joint/hip/angle"}), wanted = run.rows({"/desired/joint/hip/angle"});
-  return mean_of(stretches(run, "swing", 1), [&](const Stretch& s) {
+  return mean_of(stretches(run, "swing", 1), [&](const PhaseSpan& s) {
     const auto late =
         static_cast<double>(passes(is, s, 280)) - static_cast<double>(passes(wanted, s, 280));
     return 100 * late / static_cast<double>(s.last - s.first);
@@ -51,7 +51,7 @@ double lag(const LegRun& run) {
 // Returns the share of propulsion before the hip has moved by half a degree.
 double standing_share(const LegRun& run) {
   const Column angle = run.rows({"/joint/hip/angle"});
-  return mean_of(stretches(run, "propulsion"), [&](const Stretch& s) {
+  return mean_of(stretches(run, "propulsion"), [&](const PhaseSpan& s) {
     std::size_t at = s.first;
     while (at < s.last && std::fabs(angle[at] - angle[s.first]) < 0.5) ++at;
     return static_cast<double>(at - s.first) / static_cast<double>(s.last - s.first);
@@ -64,7 +64,7 @@ double change_of(const LegRun& run, const std::string& topic) {
   const Column torque = run.rows({topic});
   const Column& walk = run.record().sequence();
   double least = 1e300;
-  for (const Stretch& s : stretches(run, "swing")) {
+  for (const PhaseSpan& s : stretches(run, "swing")) {
     std::vector<double> time, part;
     for (std::size_t i = (s.first + s.last) / 2; i < s.last; ++i) {
       time.push_back(run.record().time(i));
@@ -80,7 +80,7 @@ double change_of(const LegRun& run, const std::string& topic) {
 double spike(const LegRun& run) {
   const Column force = run.rows({"/foot/force", "y"});
   const double largest = analysis::largest(force, run.record().stance());
-  return 100 / largest * mean_of(stretches(run, "propulsion"), [&](const Stretch& s) {
+  return 100 / largest * mean_of(stretches(run, "propulsion"), [&](const PhaseSpan& s) {
            double top = force[s.first], fall = 0;
            for (std::size_t i = s.first; i < (s.first + s.last) / 2; ++i) {
              top = std::max(top, force[i]);
@@ -105,7 +105,7 @@ struct SwingTurns {
   double rows = 0;
 };
 
-SwingTurns turns_in(const LegRun& run, const std::string& joint, const Stretch& s) {
+SwingTurns turns_in(const LegRun& run, const std::string& joint, const PhaseSpan& s) {
   const Column error = run.rows({"/joint/" + joint + "/error"});
   const double back = analysis::least_return * 180 / M_PI;
   return {analysis::turning_points(error.slice(s.first, s.last), back),
@@ -114,7 +114,7 @@ SwingTurns turns_in(const LegRun& run, const std::string& joint, const Stretch& 
 
 // Returns the share of swing after which the hip does not turn, mean over the steps [%].
 double last_turn(const LegRun& run) {
-  return mean_of(stretches(run, "swing"), [&](const Stretch& s) {
+  return mean_of(stretches(run, "swing"), [&](const PhaseSpan& s) {
     const SwingTurns t = turns_in(run, "hip", s);
     return t.points.empty() ? 0 : 100 * static_cast<double>(t.points.back().row) / t.rows;
   });
@@ -133,7 +133,7 @@ double largest_duty(const LegRun& run, const std::string& valve) {
 
 double swing_amplitude(const LegRun& run, const std::string& joint, int step) {
   double largest = 0;
-  for (const Stretch& s : stretches(run, "swing", step))
+  for (const PhaseSpan& s : stretches(run, "swing", step))
     if (s.step == step)
       for (const double a : analysis::amplitudes(turns_in(run, joint, s).points))
         largest = std::max(largest, a);

@@ -38,7 +38,7 @@ std::string LegRun::caption(const std::string& what) const {
 Window LegRun::sequence() const { return {0, analysis_.record.sequence_end() - start_}; }
 
 Window LegRun::phase(std::string_view name) const {
-  for (const analysis::Stretch& s : analysis_.record.stretches())
+  for (const analysis::PhaseSpan& s : analysis_.record.phase_spans())
     if (analysis_.machine.phases[static_cast<std::size_t>(s.phase)] == name)
       return {analysis_.record.time(s.first) - start_,
               analysis_.record.end_of(s.last - 1) - start_};
@@ -113,7 +113,7 @@ std::vector<report::Claim> LegRun::verdicts(const std::vector<std::string>& keys
   std::vector<report::Claim> out;
   for (const analysis::Verdict& v : analysis_.verdicts)
     if (std::ranges::any_of(keys, [&](const std::string& k) { return v.key.starts_with(k); }))
-      out.push_back(in_words(v));
+      out.push_back(described_claim(v));
   return out;
 }
 

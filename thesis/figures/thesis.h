@@ -81,10 +81,10 @@ class Section {
 };
 
 // Returns a verdict on a summary's key, with the key's description if it has one.
-report::Claim in_words(const analysis::Verdict& verdict);
+report::Claim described_claim(const analysis::Verdict& verdict);
 
 // Returns "knee flexor" for knee_flexor.
-std::string in_words(std::string name);
+std::string spaced_name(std::string name);
 
 // Returns the points of a curve, for measurements.
 inline report::Trace trace(const report::Curve& curve) { return {curve.xs, curve.ys}; }

@@ -62,14 +62,14 @@ report::Claim Section::number(StatementClass statement_class, const std::string&
                                          .because = because});
 }
 
-report::Claim in_words(const analysis::Verdict& verdict) {
+report::Claim described_claim(const analysis::Verdict& verdict) {
   report::Claim out = report::claim(verdict);
   const auto* known = std::ranges::find(words, verdict.key, &decltype(words)::value_type::first);
   if (known != words.end()) out.says = known->second;
   return out;
 }
 
-std::string in_words(std::string name) {
+std::string spaced_name(std::string name) {
   std::ranges::replace(name, '_', ' ');
   return name;
 }

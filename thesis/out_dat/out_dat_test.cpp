@@ -118,7 +118,7 @@ TEST(OutDat, GoesRoundWithoutChange) {
   compare("/desired/joint/knee/stiffness", 1e-6);
 }
 
-TEST(OutDat, SaysInWhichLineItIsWrong) {
+TEST(OutDat, ReportsTheWrongLine) {
   const experiment::Experiment e = walk();
   const std::string h = heading, row = first;
   const auto with = [&](const std::string& from, const std::string& to) {

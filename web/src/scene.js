@@ -185,7 +185,7 @@ export class Scene {
       if (spec.cylinder) shapes.cylinder(ctx, view, spec, this.chambers(t), theme, reach, pose);
       shapes.body(ctx, view, spec, theme, reach, pose);
     });
-    for (const tendon of spec.cords)
+    for (const tendon of spec.tendons)
       this.in_frame(ctx, tendon.frame, t, () => shapes.tendon(ctx, view, tendon.from, tendon.to, theme));
     for (const link of spec.links)
       this.in_frame(ctx, link.frame, t, () => shapes.link(ctx, view, link, theme, reach));

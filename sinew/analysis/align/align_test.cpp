@@ -121,7 +121,7 @@ TEST(Align, AMotionThatRepeatsItselfIsNotGuessed) {
   EXPECT_NEAR(align(a, b, {.largest_shift = 0.7}).clock.shift, 0.2, 0.003);
 }
 
-TEST(Align, RestBeforeAndAfterTellsRepetitionsApart) {
+TEST(Align, RestBeforeAndAfterDistinguishesRepetitions) {
   const auto thrice = [](double t) {
     const double u = std::clamp(t - 2, 0.0, 12.0);
     return 0.5 * (1 - std::cos(2 * std::numbers::pi * u / 4));
@@ -154,7 +154,7 @@ TEST(Align, WhatIsConstantOrNoiseOrMissingIsRefused) {
   EXPECT_TRUE(says(refusal_of(a, strange, {}), "at best")) << refusal_of(a, strange, {});
 }
 
-TEST(Align, AMotionThatCannotBeToldFromLaterIsRefused) {
+TEST(Align, AMotionThatCannotBeDistinguishedFromLaterIsRefused) {
   signals::Table a, b;
   const auto ramp = [](double t) { return 0.1 * t; };
   test::add_channel(a, "/joint/hip/angle", "rad", {}, 0, ramp);

@@ -42,13 +42,13 @@ std::size_t half_window(double width, double period);
 
 // Turning points of a series, and the swings between them.
 //
-//   turning point   an extreme that the values have come to by at least `back` and have come back
-//                   from by at least `back`
+//   turning point   an extreme: the values change by at least `back` before it, and by at least
+//                   `back` in the other direction after it
 //   half swing      from one turning point to the next; its amplitude is half of its height
 //
-// The ends of the values are no turning points, so that a ramp has none, and a deviation that grows
-// once and dies away has one, which makes no swing. A sine of n periods that starts at zero has 2 n
-// if its amplitude is at least `back`. Smaller changes, such as noise, are ignored, and so is an
+// The ends of the series are no turning points: a ramp has none; a deviation that grows once and
+// decays has one, and so no half swing. A sine of n periods that starts at zero has 2 n if its
+// amplitude is at least `back`. Smaller changes, such as noise, are ignored, and so is an
 // oscillation on a slope so steep that the sum is monotonic.
 
 // An extreme of a series.

@@ -23,7 +23,7 @@ Column held(const signals::Times& times, const Column& values, const signals::Ti
 template <class Wanted>
 Column Record::only(Wanted wanted) const {
   Column out = new_column();
-  for (const Stretch& s : stretches_) {
+  for (const PhaseSpan& s : phase_spans_) {
     while (out.size() < s.first) out.push_back(0);
     const auto is_wanted = wanted(s);
     for (std::size_t i = s.first; i < s.last; ++i) out.push_back(is_wanted(i) ? seconds_[i] : 0);
@@ -37,11 +37,11 @@ Record::Record(const signals::Table& table, const Machine& machine, const signal
     : table_(&table), more_(more), machine_(&machine), leg_(std::move(leg)) {
   if (leg_.empty() && !machine.robot.legs.empty()) leg_ = machine.robot.legs.front().name;
   find_times();
-  find_stretches();
+  find_phase_spans();
   const auto all_or_none = [](bool is) { return [is](std::size_t) { return is; }; };
-  sequence_ = only([&](const Stretch&) { return all_or_none(true); });
-  stance_ = only([&](const Stretch& s) { return all_or_none(is_stance(machine, s.phase)); });
-  swing_ = only([&](const Stretch& s) { return all_or_none(is_swing(machine, s.phase)); });
+  sequence_ = only([&](const PhaseSpan&) { return all_or_none(true); });
+  stance_ = only([&](const PhaseSpan& s) { return all_or_none(is_stance(machine, s.phase)); });
+  swing_ = only([&](const PhaseSpan& s) { return all_or_none(is_swing(machine, s.phase)); });
 }
 
 void Record::find_times() {
@@ -69,12 +69,12 @@ void Record::find_times() {
   }
 }
 
-void Record::find_stretches() {
+void Record::find_phase_spans() {
   const Column phase = column("/plan/phase"), step = column("/plan/step");
-  stretches_ = signals::PagedVector<Stretch>(time_ns_.file());
-  Stretch now;
+  phase_spans_ = signals::PagedVector<PhaseSpan>(time_ns_.file());
+  PhaseSpan now;
   const auto end = [&] {
-    if (now.last > now.first) stretches_.push_back(now);
+    if (now.last > now.first) phase_spans_.push_back(now);
     now = {};
   };
   for (std::size_t i = 0; i < phase.size(); ++i) {
@@ -94,7 +94,7 @@ void Record::find_stretches() {
 }
 
 Column Record::part(int phase, double from, double to) const {
-  return only([&](const Stretch& s) {
+  return only([&](const PhaseSpan& s) {
     const bool is_it = phase < 0 || s.phase == phase;
     const double start = time(s.first), duration = lasting(s);
     return [=, this](std::size_t i) {
@@ -132,15 +132,15 @@ Column Record::column(std::string_view topic, std::string_view field) const {
   return {};
 }
 
-std::optional<Stretch> Record::last_of(int phase) const {
-  for (std::size_t i = stretches_.size(); i-- > 0;)
-    if (const Stretch s = stretches_[i]; s.phase == phase) return s;
+std::optional<PhaseSpan> Record::last_of(int phase) const {
+  for (std::size_t i = phase_spans_.size(); i-- > 0;)
+    if (const PhaseSpan s = phase_spans_[i]; s.phase == phase) return s;
   return std::nullopt;
 }
 
 std::vector<int> Record::complete_steps() const {
   std::map<int, std::size_t> phases;  // number by step
-  for (const Stretch& s : stretches_) ++phases[s.step];
+  for (const PhaseSpan& s : phase_spans_) ++phases[s.step];
   std::size_t whole = 0;
   for (const auto& [step, n] : phases) whole = std::max(whole, n);
 
@@ -148,7 +148,7 @@ std::vector<int> Record::complete_steps() const {
   for (const auto& [step, n] : phases)
     if (n == whole) out.push_back(step);
   if (out.empty() || table_->complete || last_row() + 1 < rows()) return out;
-  if (out.back() == stretches_.back().step) out.pop_back();
+  if (out.back() == phase_spans_.back().step) out.pop_back();
   return out;
 }
 

@@ -23,7 +23,7 @@ namespace sinew::analysis {
 using signals::Column;  // a value per row; empty if the log lacks the topic
 
 // One phase of one step: rows first .. last - 1.
-struct Stretch {
+struct PhaseSpan {
   int phase = 0, step = 0;
   std::size_t first = 0, last = 0;
 };
@@ -45,7 +45,7 @@ class Record {
   double lasting(std::size_t first, std::size_t last) const {
     return static_cast<double>(end_ns(last) - time_ns_[first]) / 1e9;
   }
-  double lasting(const Stretch& s) const { return lasting(s.first, s.last - 1); }
+  double lasting(const PhaseSpan& s) const { return lasting(s.first, s.last - 1); }
   double period() const { return period_; }  // median [s]
 
   // Return a topic by its name in the log, or in the leg; nullptr or an empty column if neither
@@ -67,12 +67,12 @@ class Record {
   Column part(int phase, double from, double to) const;
 
   // Returns the phases of all steps in the order of time.
-  const signals::PagedVector<Stretch>& stretches() const { return stretches_; }
-  std::optional<Stretch> last_of(int phase) const;  // empty if the phase did not occur
+  const signals::PagedVector<PhaseSpan>& phase_spans() const { return phase_spans_; }
+  std::optional<PhaseSpan> last_of(int phase) const;  // empty if the phase did not occur
   // Returns whether the log has a sequence of phases. The functions below require one.
-  bool has_sequence() const { return !stretches_.empty(); }
-  std::size_t first_row() const { return stretches_.front().first; }
-  std::size_t last_row() const { return stretches_.back().last - 1; }
+  bool has_sequence() const { return !phase_spans_.empty(); }
+  std::size_t first_row() const { return phase_spans_.front().first; }
+  std::size_t last_row() const { return phase_spans_.back().last - 1; }
   // Returns the row after the sequence, or its last one if nothing was logged afterwards.
   std::size_t end_row() const { return last_row() + 1 < rows() ? last_row() + 1 : last_row(); }
   double sequence_start() const { return time(first_row()); }  // [s]
@@ -89,8 +89,8 @@ class Record {
   const signals::Series* find_in(const signals::Table& table, std::string_view topic) const;
   const signals::Series* logged(std::string_view topic) const;  // in the log itself
   void find_times();
-  void find_stretches();
-  // Returns the durations of the rows for which wanted(stretch)(row) holds, and 0 for the others.
+  void find_phase_spans();
+  // Returns the durations of the rows for which wanted(span)(row) holds, and 0 for the others.
   template <class Wanted>
   Column only(Wanted wanted) const;
 
@@ -102,7 +102,7 @@ class Record {
   std::int64_t last_ns_ = 0;  // duration of the last row
   Column seconds_, sequence_, stance_, swing_;
   double period_ = 0;
-  signals::PagedVector<Stretch> stretches_;
+  signals::PagedVector<PhaseSpan> phase_spans_;
 };
 
 // Returns the values at the times `at`, each held until the next one; NaN before the first.

@@ -57,7 +57,7 @@ TEST(Band, EachWordingHasItsRule) {
   for (const auto& w : config::wordings) EXPECT_NE(rule_of(w.value), "another band") << w.word;
 }
 
-TEST(Band, NumbersAreTakenFromWhatIsSaid) {
+TEST(Band, NumbersAreTakenFromTheText) {
   const auto expect_words = [](const char* words, double lowest, double highest, double digit,
                                const char* unit) {
     const QuotedNumber s = quoted_number(words);

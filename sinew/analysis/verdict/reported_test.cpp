@@ -103,7 +103,7 @@ TEST(Reported, GaugePressuresKnowTheAtmosphere) {
 }
 
 // A reason makes a difference a known one. Agreement in spite of a reason is reported too.
-TEST(Reported, AKnownDifferenceSaysWhy) {
+TEST(Reported, AKnownDifferenceHasItsReason) {
   Summary s;
   s.add("d_m", 1.0);
   Reported r{.key = "d_m", .value = "2 m", .accept = {"1.9 m", "2.1 m"}, .source = "6.3"};

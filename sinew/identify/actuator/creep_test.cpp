@@ -53,7 +53,7 @@ TEST(Creep, NoneIsFoundWhereThereIsNone) {
   EXPECT_EQ(identify_creep(hold(0, 1, 0, 0.2, 2)).report.best().model, "none");
 }
 
-TEST(Creep, APressureThatRisesOnIsTold) {
+TEST(Creep, APressureThatContinuesToRiseIsReported) {
   const CreepResult found = identify_creep(hold(0.08, 8, 0.02, 0.2, 3));
   ASSERT_EQ(found.report.warnings.size(), 1u);
   EXPECT_NE(found.report.warnings[0].find("confounded"), std::string::npos);
@@ -108,7 +108,7 @@ TEST(Creep, AndFrictionComeBackTogetherFromFillHoldAndVent) {
 }
 
 // Without one of the effects the vent does not fit, which separates them.
-TEST(Creep, AndFrictionAreToldApart) {
+TEST(Creep, AndFrictionAreDistinguished) {
   EXPECT_EQ(identify_creep(there_and_back(8e3, 0, 4, 0.5, 1)).report.best().model, "friction");
   EXPECT_EQ(identify_creep(there_and_back(0, 0.06, 4, 0.5, 1)).report.best().model, "one");
   EXPECT_EQ(identify_creep(there_and_back(0, 0, 4, 0.5, 1)).report.best().model, "none");

@@ -50,7 +50,7 @@ TEST(Geometry, IntervalsCoverTheTruth) {
   EXPECT_LT(std::abs(bias), 0.01);
 }
 
-TEST(Geometry, OneWrongDiameterIsToldAndHardlyHeard) {
+TEST(Geometry, OneWrongDiameterIsReportedAndHasLittleEffect) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     Measured m = pairs(seed, 3e-5, 10);
     m.columns[1].values[seed % 10] *= seed % 2 == 0 ? 1.3 : 0.6;

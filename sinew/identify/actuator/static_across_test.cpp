@@ -317,7 +317,7 @@ TEST(AcrossMuscles, IntervalsHoldBeyondTheShortestLength) {
 }
 
 // Without a mount at rest no interval is given there.
-TEST(AcrossMuscles, TheMountAtRestIsNotToldFromShorterOnes) {
+TEST(AcrossMuscles, TheMountAtRestIsNotDistinguishedFromShorterOnes) {
   StaticData data;
   const Points points = dmsp();
   for (const StaticPoint& p : points)

@@ -129,7 +129,7 @@ TEST(StaticData, UnitsChangeNothing) {
   }
 }
 
-TEST(StaticData, SlackRowsOfATableTellTheZeroOfTheForce) {
+TEST(StaticData, SlackRowsOfATableDetermineTheZeroOfTheForce) {
   for (const double zero : {-30.0, 0.0, 20.0}) {
     StaticData data;
     EXPECT_NEAR(add_points(read(table(1, 1e3, zero)), {.rest_length = rest}, data).force, zero,

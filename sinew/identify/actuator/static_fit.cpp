@@ -94,7 +94,7 @@ class Problem {
       priors_.push_back(prior_of(free_parameter, scales));
     }
     for (const RestLengthError& label : labels_) {
-      if (!label.doubted()) continue;
+      if (!label.is_fitted()) continue;
       parameters_.push_back(parameter_of(label));
       priors_.push_back(Prior{0, rest_length_deviation(label.labelled)});
     }
@@ -111,7 +111,7 @@ class Problem {
     out.rest_lengths = labels_;
     std::size_t i = free_parameters_.size();
     for (RestLengthError& label : out.rest_lengths)
-      if (label.doubted()) label.error = values[i++];
+      if (label.is_fitted()) label.error = values[i++];
     return out;
   }
 
@@ -122,7 +122,7 @@ class Problem {
     for (const FreeParameter free_parameter : free_parameters_)
       out.push_back(value_of(from, free_parameter));
     for (const RestLengthError& r : labels_)
-      if (r.doubted())
+      if (r.is_fitted())
         out.push_back(std::clamp(rest_length_of(setting, r.labelled) - r.labelled, r.low, r.high));
     return out;
   }
@@ -152,7 +152,7 @@ class Problem {
     double sum = 0;
     std::size_t i = free_parameters_.size();
     for (const RestLengthError& label : labels_)
-      if (label.doubted()) sum += values[i++] / label.labelled;
+      if (label.is_fitted()) sum += values[i++] / label.labelled;
     return sum;
   }
 
@@ -172,7 +172,7 @@ class Problem {
     r.back() = scatter * in_common(values) / common_deviation;
     std::size_t i = free_parameters_.size();
     for (const RestLengthError& label : labels_)
-      if (label.doubted() && !by.empty())
+      if (label.is_fitted() && !by.empty())
         by[++i * r.size() - 1] = scatter / (label.labelled * common_deviation);
   }
 
@@ -196,9 +196,9 @@ class Problem {
         law.write_slopes(length, point, f, slopes);
         for (std::size_t k = 0; k < free_parameters_.size(); ++k)
           by[k * r.size() + i] = value_of(slopes.by_parameter, free_parameters_[k]);
-        if (label.doubted()) by[own * r.size() + i] = slopes.by_label(point);
+        if (label.is_fitted()) by[own * r.size() + i] = slopes.by_label(point);
       }
-      own += label.doubted() ? 1 : 0;
+      own += label.is_fitted() ? 1 : 0;
     }
   }
 
@@ -206,7 +206,7 @@ class Problem {
   std::span<const StaticPoint> points_;
   const StaticScales& scales_;
   std::vector<RestLengthError> labels_;
-  std::vector<Parameter> parameters_;  // free parameters, then doubted labels
+  std::vector<Parameter> parameters_;  // free parameters, then fitted labels
   std::vector<std::optional<Prior>> priors_;
 };
 
@@ -242,7 +242,7 @@ void judge_labels(StaticFit& fit) {
       fit.solution.estimates.end(), [](const Estimate& e) { return e.at_bound; });
   std::size_t i = fit.free_parameters.size();
   for (const RestLengthError& label : fit.setting.rest_lengths) {
-    if (!label.doubted()) continue;
+    if (!label.is_fitted()) continue;
     Estimate& e = fit.solution.estimates[i++];
     const double before = rest_length_deviation(label.labelled);
     if (!e.at_bound && e.standard_error > prior_rules * before && std::abs(e.value) < before)
@@ -261,7 +261,7 @@ void judge_labels(StaticFit& fit) {
 const Estimate* rest_length_estimate(const StaticFit& fit, double labelled) {
   std::size_t i = fit.free_parameters.size();
   for (const RestLengthError& r : fit.setting.rest_lengths) {
-    if (!r.doubted()) continue;
+    if (!r.is_fitted()) continue;
     if (r.labelled == labelled) return &fit.solution.estimates[i];
     ++i;
   }

@@ -23,7 +23,7 @@ namespace sinew::identify {
 struct StaticFit {
   StaticSetting setting;
   std::vector<FreeParameter> free_parameters;
-  Solution solution;  // free parameters, then doubted rest lengths; residuals of points alone
+  Solution solution;  // free parameters, then fitted rest lengths; residuals of points alone
   std::vector<Parameter> parameters;   // as they were searched, with widened bounds
   Constraints constraints;             // those frozen at their bounds
   double scatter = 0;                  // sigma [N]
@@ -31,7 +31,7 @@ struct StaticFit {
   std::vector<FreeParameter> unknown;  // not determined by the data, at their prior
 };
 
-// Returns the estimate of a muscle's rest length error; null if its label is not doubted.
+// Returns the estimate of a muscle's rest length error; null if its label is not fitted.
 const Estimate* rest_length_estimate(const StaticFit& fit, double labelled);
 
 // Returns the force [N] at a length [m], at the pressure and on the branch of a point.

@@ -15,7 +15,7 @@ constexpr double most_of_gap = 0.9;  // share of the gap to the next mount: keep
 
 bool same(double a, double b) { return std::abs(a - b) < same_label; }
 
-// Sets the bounds of one muscle's error; none if its label cannot be doubted.
+// Sets the bounds of one muscle's error; none if its label cannot be fitted.
 void set_bounds(std::span<const StaticPoint> points, RestLengthError& label) {
   const double rest = label.labelled, most = most_deviations * rest_length_deviation(rest);
   double below = most / most_of_gap, above = below;
@@ -61,7 +61,7 @@ std::vector<RestLengthError> labels_of(std::span<const StaticPoint> points) {
     if (std::ranges::find(out, p.rest_length, &RestLengthError::labelled) == out.end())
       out.push_back({.labelled = p.rest_length});
   for (RestLengthError& label : out) set_bounds(points, label);
-  if (std::ranges::count_if(out, &RestLengthError::doubted) < 2)
+  if (std::ranges::count_if(out, &RestLengthError::is_fitted) < 2)
     for (RestLengthError& label : out) label.low = label.high = 0;
   return out;
 }
@@ -79,7 +79,7 @@ void widen_by_common(std::span<const RestLengthError> labels, const RestLengthEr
   if (estimate.at_bound) return;
   double square = 0, n = 0;
   for (const RestLengthError& r : labels) {
-    if (!r.doubted()) continue;
+    if (!r.is_fitted()) continue;
     square += std::pow(rest_length_deviation(r.labelled) / r.labelled, 2);
     n += 1;
   }

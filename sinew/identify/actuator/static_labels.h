@@ -11,7 +11,7 @@
 //
 // Both are priors, with less weight if the data contradict them strongly (static_fit.h). As the
 // common part is fixed, an error is relative to the other muscles: its interval includes the
-// uncertainty of the labels' mean. A label is doubted if the muscle has a mount at rest and another
+// uncertainty of the labels' mean. A label is fitted if the muscle has a mount at rest and another
 // mount, and none of the others is within 2 % of the label: in a sweep of small steps the error
 // cannot be assigned to one length. A single muscle has no e_L.
 #pragma once
@@ -36,7 +36,7 @@ bool at_rest(double length, double rest_length);
 // Makes labels that agree within a micrometre equal, such as 283 mm and 0.283 m.
 void unite_labels(std::vector<StaticPoint>& points);
 
-// Returns the muscles of the points in their order, with zero error, and with bounds if doubted.
+// Returns the muscles of the points in their order, with zero error, and with bounds if fitted.
 std::vector<RestLengthError> labels_of(std::span<const StaticPoint> points);
 
 // Returns the search parameter of e_L, named like "rest_length_error_225mm".

@@ -1,5 +1,5 @@
-// identify/actuator/static_model.h - static laws that are tried: the free parameters of the
-// actuator in each, their start values and their priors.
+// identify/actuator/static_model.h - static laws that an identification compares: the free
+// parameters of the actuator in each, their start values and their priors.
 //
 // Every model is a choice of terms of actuator/tension.h, so the identified law is the simulated
 // one. Parameters are those of one muscle. For several muscles of one make the longest is the
@@ -68,7 +68,7 @@ struct RestLengthError {
   double low = 0, high = 0;        // bounds of e_L [m]; both 0: not fitted
 
   // Returns whether the error is fitted with the law.
-  bool doubted() const { return low < high; }
+  bool is_fitted() const { return low < high; }
 };
 
 // An actuator with a given value of every free parameter.

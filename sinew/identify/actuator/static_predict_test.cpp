@@ -136,7 +136,7 @@ TEST(Predict, AReadingOfSomethingElseIsRefused) {
   EXPECT_THROW(reading_factor(a, {0.1, 0, f}, units::atmosphere), Refusal);
 }
 
-TEST(Predict, AFileThatTellsNoLengthIsRefused) {
+TEST(Predict, AFileWithoutALengthIsRefused) {
   actuator::Actuator a = measured_muscle();
   a.prediction.lengths.clear();
   EXPECT_THROW(with_rest_length(a, 0.1, units::atmosphere), Refusal);

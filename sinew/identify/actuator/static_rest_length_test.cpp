@@ -192,7 +192,7 @@ TEST(RestLength, LabelsWithinAMicrometreAreOneMuscle) {
 
 // A label with a large error is at its bound, and the errors of the others, which absorb a part of
 // it, have no interval.
-TEST(RestLength, ALabelThatIsFarOffIsToldAsSuch) {
+TEST(RestLength, ALabelThatIsFarOffIsReportedAsSuch) {
   const StaticResult found = identified(measured({0.01, 0, 0}, 9));
   const std::string said = notes_of(found);
   EXPECT_TRUE(error_of(found, labels[0]).at_bound);
@@ -210,15 +210,15 @@ TEST(RestLength, SweepsAndMusclesWithoutAMountAtRestAreBelieved) {
       points.push_back({.length = (label == labels[2] ? 0.985 : 1) * mount * label,
                         .pressure = 1e5,
                         .rest_length = label});
-  for (const RestLengthError& r : labels_of(points)) EXPECT_FALSE(r.doubted()) << r.labelled;
+  for (const RestLengthError& r : labels_of(points)) EXPECT_FALSE(r.is_fitted()) << r.labelled;
   points.push_back({.length = labels[2], .pressure = 1e5, .rest_length = labels[2]});
   for (const double mount : {0.3, 0.29})
     points.push_back({.length = mount, .pressure = 1e5, .rest_length = 0.3});
   const std::vector<RestLengthError> four = labels_of(points);
-  EXPECT_FALSE(four[0].doubted());
-  EXPECT_TRUE(four[1].doubted());
-  EXPECT_FALSE(four[2].doubted());  // the nearest mount is 1.5 % away
-  EXPECT_TRUE(four[3].doubted());
+  EXPECT_FALSE(four[0].is_fitted());
+  EXPECT_TRUE(four[1].is_fitted());
+  EXPECT_FALSE(four[2].is_fitted());  // the nearest mount is 1.5 % away
+  EXPECT_TRUE(four[3].is_fitted());
   EXPECT_GT(four[3].low, -0.01);  // it stays longer than the next mount
 }
 

@@ -42,13 +42,13 @@ std::string told_of(const StaticData& data) {
   return report.left_out[0].rows[0].why;
 }
 
-TEST(LeftOut, ASlippedDecimalIsTold) {
+TEST(LeftOut, ASlippedDecimalIsReported) {
   StaticData data = good_data();
   data.points[place_of(2, 6)].force *= 10;
   EXPECT_NE(told_of(data).find("a slipped decimal"), std::string::npos);
 }
 
-TEST(LeftOut, AReadingOfAnotherMountIsTold) {
+TEST(LeftOut, AReadingOfAnotherMountIsReported) {
   StaticData data = good_data();
   StaticPoint as = data.points[place_of(2, 11)];
   as.length = data.points[place_of(5, 1)].length;
@@ -56,13 +56,13 @@ TEST(LeftOut, AReadingOfAnotherMountIsTold) {
   EXPECT_NE(told_of(data).find("another mount"), std::string::npos) << told_of(data);
 }
 
-TEST(LeftOut, NoForceIsTold) {
+TEST(LeftOut, ZeroForceIsReported) {
   StaticData data = good_data();
   data.points[place_of(1, 9)].force = 0;
   EXPECT_NE(told_of(data).find("no force where the law pulls"), std::string::npos);
 }
 
-TEST(LeftOut, WhatNothingExplainsSaysSo) {
+TEST(LeftOut, WhatNothingExplainsIsReported) {
   StaticData data = good_data();
   data.points[place_of(0, 12)].force *= 1.35;
   EXPECT_NE(told_of(data).find("nothing in these data explains it"), std::string::npos)

@@ -51,7 +51,7 @@ std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
     for (const RestLengthError& r : known) {
       const bool mine = r.labelled == point.rest_length;
       is_known = is_known || mine;
-      if (r.doubted()) gradient.push_back(mine ? pulls * slopes.by_label(point) : 0);
+      if (r.is_fitted()) gradient.push_back(mine ? pulls * slopes.by_label(point) : 0);
     }
     double sum = 0;
     for (std::size_t i = 0; i < gradient.size(); ++i)

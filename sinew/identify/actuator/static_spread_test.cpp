@@ -160,7 +160,7 @@ TEST(Spread, MusclesOfOneMakePredictEachOther) {
   EXPECT_GE(in, 65);  // of 70
 }
 
-TEST(Spread, OneMuscleTellsNothingOfOthers) {
+TEST(Spread, OneMuscleDeterminesNothingOfOthers) {
   const StaticResult found = fit_of(measure({0.25}, 3, 7), "saturating");
   const StaticForce f = predict(found, {.length = 0.17, .pressure = 3e5, .rest_length = 0.18});
   EXPECT_GT(f.force, 0);

@@ -253,7 +253,7 @@ TEST(Check, GoodRigsHaveNoRed) {
 
 // Forces in lbf that are labelled N look like those of a thinner muscle: the check cannot decide
 // this, but reports the diameter for numbers in lbf, which equals the one of the forces in N.
-TEST(Check, TellsTheDiameterInCaseTheForcesAreLbf) {
+TEST(Check, ReportsTheDiameterInCaseTheForcesAreLbf) {
   const auto evidence = [](double scale) {
     Input in = rig(scale);
     in.known_rest = rest;

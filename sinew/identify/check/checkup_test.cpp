@@ -84,7 +84,7 @@ TEST(Checkup, FindsTheNoise) {
 }
 
 // The intervals of parameters determined by the data contain the truth.
-TEST(Checkup, WhatTheDataTellHoldsTheTruth) {
+TEST(Checkup, TheIntervalOfTheDataHoldsTheTruth) {
   int told = 0, held = 0;
   for (unsigned seed = 1; seed <= 4; ++seed) {
     const DeterminedLaw law = determine(table_of(
@@ -109,7 +109,7 @@ TEST(Checkup, WhatTheDataTellHoldsTheTruth) {
 
 // Mounts that are close together determine neither braid nor bladder, and one branch no hysteresis:
 // the report names the measurements that would.
-TEST(Checkup, SaysWhatWouldTellTheRest) {
+TEST(Checkup, ReportsWhatWouldDetermineTheRest) {
   std::vector<StaticPoint> points;
   add_rig({.contractions = {0.06, 0.08}, .noise = 3}, points);
   std::erase_if(points, [](const StaticPoint& p) { return p.branch == Branch::vent; });

@@ -128,7 +128,7 @@ TEST(Label, RightOnesOfAMakeAreLeftInPeace) {
   }
 }
 
-TEST(Label, WhatCannotBeAskedIsGrey) {
+TEST(Label, UnavailableRequestsAreGrey) {
   std::vector<StaticPoint> points;
   add_rig({.contractions = {0, 0.1}}, points);
   EXPECT_EQ(only_check(points).light, TrafficLight::grey);

@@ -109,7 +109,7 @@ TEST(Constraint, APriorWeighsAsAMeasurementOfItsDeviation) {
   EXPECT_TRUE(s.estimates[0].free);
 }
 
-TEST(Constraint, APriorThatTheDataContradictOrDoNotNarrowIsTold) {
+TEST(Constraint, APriorThatTheDataContradictOrDoNotNarrowIsReported) {
   const Data data(4);
   EXPECT_NE(data.solve(Constraints({.prior = {"a=30 N ± 0.1 N"}})).estimates[0].known.find("away"),
             std::string::npos);
@@ -124,7 +124,7 @@ TEST(Constraint, NamesStandForAllOfTheirKind) {
   EXPECT_EQ(constraints.of("bx"), nullptr);
 }
 
-TEST(Constraint, WhatIsNoneIsToldBySettingAndName) {
+TEST(Constraint, WhatIsInvalidIsReportedBySettingAndName) {
   EXPECT_EQ(told([] { Constraints({.freeze = {"a"}}); }),
             "freeze: found \"a\"; expected NAME=VALUE");
   EXPECT_EQ(told([] { Constraints({.prior = {"a=3 N"}}); }),

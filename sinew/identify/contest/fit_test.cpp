@@ -58,7 +58,7 @@ TEST(Choice, CountsEveryKindOfPartsByItsOwnScatter) {
   EXPECT_EQ(r.best().model, "two");
 }
 
-TEST(Choice, TellsHowCloseTheNextOnesAre) {
+TEST(Choice, ReportsHowCloseTheNextOnesAre) {
   Report r{.fits = {model("one", 1, 3.0), model("two", 2, 1.05), model("five", 5, 1.0),
                     model("six", 6, 1.26), model("seven", 7, 9)}};
   choose(r);
@@ -89,7 +89,7 @@ TEST(Choice, LeavesOutWhatStandsAtItsBounds) {
             "no law is free of a reason not to choose it; two: gain at the bound of its range");
 }
 
-TEST(Choice, RefusesWhenNothingIsLeftAndSaysEachReasonOnce) {
+TEST(Choice, RefusesWhenNothingIsLeftAndReportsEachReasonOnce) {
   Report r{.subject = "law", .fits = {model("a", 1, 1), model("b", 2, 1), model("c", 3, 1)}};
   r.fits[0].refused = r.fits[2].refused = "one length only";
   r.fits[1].refused = "no mesh";

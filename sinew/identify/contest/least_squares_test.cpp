@@ -76,7 +76,7 @@ TEST(LeastSquares, IntervalsCoverTheTruthAsOftenAsTheySay) {
   EXPECT_LT(std::abs(bias), 0.02);
 }
 
-TEST(LeastSquares, AProductDoesNotTellItsFactors) {
+TEST(LeastSquares, AProductDoesNotDetermineItsFactors) {
   const Line line(5);
   const Residuals product = [&line](std::span<const double> p, std::span<double> r) {
     for (std::size_t i = 0; i < line.x.size(); ++i)
@@ -143,7 +143,7 @@ TEST(LeastSquares, ASearchThatIsStoppedEndsAtItsNextTrial) {
   EXPECT_THROW(host::side_by_side(3, [](std::size_t) {}), host::Stopped);
 }
 
-TEST(LeastSquares, ABoundHoldsAndSaysSo) {
+TEST(LeastSquares, ABoundHoldsAndIsReported) {
   const Line line(9);
   Parameter parameters[] = {line_parameters[0], line_parameters[1]};
   parameters[1].low = -1;

@@ -12,7 +12,7 @@
 namespace sinew::identify::provenance_test {
 namespace {
 
-TEST(Digits, AreThoseThatAreAskedFor) {
+TEST(Digits, AreTheRequestedOnes) {
   EXPECT_EQ(with_digits(3.16713958, 4), 3.167);
   EXPECT_EQ(with_digits(-1234567.0, 3), -1230000.0);
   EXPECT_EQ(with_digits(2.61773e-6, 10), 2.61773e-6);

@@ -26,7 +26,7 @@ struct SomeRows {
 
 // A further residual of the same kind is within the half-width with the stated probability; for few
 // residuals it is the largest one.
-TEST(HalfWidth, HoldsAFurtherResidualAsOftenAsItSays) {
+TEST(HalfWidth, HoldsAFurtherResidualAsOftenAsItPromises) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal(0, 2);
   int in_68 = 0, in_95 = 0;

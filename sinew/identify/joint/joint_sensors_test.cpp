@@ -173,7 +173,7 @@ TEST(JointSensors, OfAJointThatMovesFrictionDampingAndDelayAreFound) {
   EXPECT_EQ(found.report.held_out_is, "the last third of each recording");
 }
 
-TEST(JointSensors, WhatIsMissingIsTold) {
+TEST(JointSensors, WhatIsMissingIsReported) {
   const auto refused = [](Measured m, const char* column, const JointSetup& s) {
     std::erase_if(m.columns, [&](const Column& c) { return c.name == column; });
     try {

@@ -175,7 +175,7 @@ TEST(Joint, IntervalsCoverTheTruthIn200Trials) {
 }
 
 // With a small excursion at one length the torque determines only arm times force.
-TEST(Joint, SmallExcursionsDetermineAProductOnlyAndItSaysSo) {
+TEST(Joint, SmallExcursionsDetermineAProductOnlyAndItIsReported) {
   const Truth t{.half_range = 0.06};
   const std::string text = refused(poses(t, false, 0.05, 2), setup_of(t), "round");
   EXPECT_NE(text.find("cannot be separated"), std::string::npos) << text;
@@ -199,7 +199,7 @@ TEST(Joint, SmallExcursionsDetermineAProductOnlyAndItSaysSo) {
 }
 
 // Small excursions determine one product only; a prior on the arm gives the rest.
-TEST(Joint, APriorOnTheArmTellsWhatTorquesCannot) {
+TEST(Joint, APriorOnTheArmDeterminesWhatTorquesCannot) {
   const Truth t{.c1 = 0, .half_range = 0.06};
   const Measured data = poses(t, false, 0.002, 9);
   EXPECT_NE(refused(data, setup_of(t), "round"), "not refused");
@@ -223,7 +223,7 @@ TEST(Joint, WhatIsWellDeterminedComesFirst) {
 }
 
 // A hanging mass is equivalent to its torque.
-TEST(Joint, AMassOnALeverSaysTheSameAsItsTorque) {
+TEST(Joint, AMassOnALeverGivesTheSameAsItsTorque) {
   const Truth t{.rest = 1.5 * pi + 0.9};
   Measured by_torque = poses(t, false, 0, 4), by_load = by_torque;
   JointSetup s = setup_of(t);
@@ -243,7 +243,7 @@ TEST(Joint, AMassOnALeverSaysTheSameAsItsTorque) {
   EXPECT_NEAR(a.effectiveness.c0, b.effectiveness.c0, 1e-6);
 }
 
-TEST(Joint, WhatCannotBeUsedIsTold) {
+TEST(Joint, WhatCannotBeUsedIsReported) {
   const Truth t;
   const Measured good = poses(t, false, 0.001, 1);
   const auto says = [](const Measured& m, const JointSetup& s, const char* text) {

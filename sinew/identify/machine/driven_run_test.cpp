@@ -70,7 +70,7 @@ TEST(MachineNumbers, GroupsAreOfTheRobotsKeys) {
   EXPECT_EQ(machine_keys(e, {"volume", "muscle.flexor.external_volume"}).size(), 2u);
 }
 
-TEST(MachineNumbers, SaysWhichWordIsWrong) {
+TEST(MachineNumbers, ReportsWhichWordIsWrong) {
   experiment::Experiment e = shipped("one-joint");
   EXPECT_EQ(
       refusal([&] { machine_keys(e, {"joint.lever.dampin"}); }),

@@ -43,7 +43,7 @@ TEST(RunFit, FindsFrictionAndADeadTimeOfOneJoint) {
 }
 
 // A leg that hangs in the air does not move its trolley measurably.
-TEST(RunFit, SaysWhatNoReadingDependsOn) {
+TEST(RunFit, ReportsWhatNoReadingDependsOn) {
   const experiment::Experiment e = shipped("leg-in-air");
   const DrivenRun driven(e, recorded(e), false);
   const RunFitResult found =
@@ -104,7 +104,7 @@ TEST(RunFit, GivesNoIntervalsOfAWalk) {
   EXPECT_EQ(describe(found)["landings"], found.landings);
 }
 
-TEST(RunFit, GivesIntervalsInTheAirAndSaysSo) {
+TEST(RunFit, GivesIntervalsInTheAirAndReportsThem) {
   const experiment::Experiment e = shipped("one-joint", {"sequence.repeat=1"});
   const DrivenRun driven(e, recorded(e), false);
   const RunFitResult found = fit_run(e, driven, {.fit = {"damping"}});

@@ -196,7 +196,7 @@ TEST(Decay, IntervalsOfBothConstantsCoverTheTruth) {
   EXPECT_LT(std::abs(bias_viscous), 0.01);
 }
 
-TEST(Decay, RecordsThatCannotBeUsedAreTold) {
+TEST(Decay, RecordsThatCannotBeUsedAreReported) {
   Samples constant = sampled({}, 0);
   for (double& x : constant.value) x = 0.08;
   EXPECT_NE(refused(constant).find("0 turning points; expected at least 5"), std::string::npos)

@@ -92,7 +92,7 @@ TEST(Dynamic, WithoutNoiseLawAndConstantsComeBack) {
 }
 
 // Two records instead of three, to save time.
-TEST(Dynamic, TheLawIsToldFromTheOthersByWhatItDidNotSee) {
+TEST(Dynamic, TheLawIsDistinguishedFromTheOthersByHeldOutData) {
   const std::pair<Loss, const char*> cases[] = {{secant_loss, "secant"},
                                                 {sealed_loss, "sealed"},
                                                 {viscous_loss, "viscous"},
@@ -222,7 +222,7 @@ std::string refused(const DecayRecord& r) {
   return "not refused";
 }
 
-TEST(Dynamic, WhatCannotBeUsedIsTold) {
+TEST(Dynamic, WhatCannotBeUsedIsReported) {
   const DecayRecord good = record({60, 6}, secant_loss, 1.6);
   const auto says = [](const DecayRecord& r, const char* text) {
     EXPECT_NE(refused(r).find(text), std::string::npos) << refused(r);
@@ -253,7 +253,7 @@ TEST(Dynamic, WhatCannotBeUsedIsTold) {
   says(out, "every record held out");
 }
 
-TEST(Dynamic, TimeThatRunsBackwardsIsToldWithItsLine) {
+TEST(Dynamic, TimeThatRunsBackwardsIsReportedWithItsLine) {
   const char* text = "time [s],length [mm]\n0.0,80\n0.1,79\n0.05,78\n";
   try {
     parse_measured(text, {.path = "a.csv"}, decay_columns());

@@ -129,7 +129,7 @@ TEST(Pair, PredictsARecordingThatIsHeldOut) {
 }
 
 // a = n_p A/V, to first order; the air's part of the stiffness is determined if the area is known.
-TEST(Pair, AirIsToldFromThePressures) {
+TEST(Pair, AirIsReportedFromThePressures) {
   const TestPair truth{.viscous = 0, .mass = 0, .elastic = 5e4};
   const std::vector<PairRecord> records{test_record(truth, 10, true)};
   const PairResult found = identify_pair(records);

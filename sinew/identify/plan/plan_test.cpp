@@ -164,7 +164,7 @@ TEST(Plan, IsNoWorseThanAnEvenOne) {
   EXPECT_LE(plan.after().rms, 1.001 * space.error(even).rms);
 }
 
-TEST(Plan, WhatNoPlanReachesIsToldAsNotReached) {
+TEST(Plan, WhatNoPlanReachesIsReportedAsNotReached) {
   PlanOptions o = options();
   o.noise = 300;
   o.error = 0.006;

@@ -125,7 +125,7 @@ std::set<std::size_t> rows_of_levels(std::span<const Point> points, const Ends& 
   return out;
 }
 
-std::string in_words(const Ends& ends) {
+std::string describe_ends(const Ends& ends) {
   const std::string top = fmt::format("{} at {:.4g} V", ends.at_top.size(), ends.top);
   const std::string bottom = fmt::format("{} at {:.4g} V", ends.at_bottom.size(), ends.bottom);
   return fmt::format("{}, the end of the sensor or its converter", ends.at_top.empty() ? bottom
@@ -152,7 +152,7 @@ Usable without_ends(const SensorData& data, const SensorReadings& s, const Count
   kept.points = points_of(kept.known, kept.output);
   const std::string where =
       fmt::format("{} of {} readings at an end (first in line {}): {}", left_out.size(),
-                  all.known.size(), all.lines[*left_out.begin()], in_words(ends));
+                  all.known.size(), all.lines[*left_out.begin()], describe_ends(ends));
   if (2 * kept.known.size() < all.known.size() || level_count(kept.points) < 2)
     refuse(data, s.name, where, "readings within its range, at two known values or more",
            "less load, less gain, or full_scale=VOLTS of your converter");

@@ -165,7 +165,7 @@ TEST(Sensor, ASecondCalibrationScoresTheFirst) {
   EXPECT_NEAR(off.held_out->rmse, 0.1, 0.01);
 }
 
-TEST(Sensor, ASlipOfThePenIsToldByItsLine) {
+TEST(Sensor, ATypingErrorIsReportedWithItsLine) {
   SensorData data = weights(1, 0.005, [](double x) { return 0.05 * x; });
   data.sensors[0].volts[7] += 0.9;
   const Calibration c = identify_sensors(data, converter);
@@ -195,7 +195,7 @@ TEST(Sensor, WhatCannotBeCalibratedIsRefused) {
   }
 }
 
-TEST(Sensor, WhatIsWrongWithAFileIsTold) {
+TEST(Sensor, WhatIsWrongWithAFileIsReported) {
   const struct {
     const char* text;
     const char* part;

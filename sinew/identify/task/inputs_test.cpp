@@ -126,7 +126,7 @@ TEST(Inputs, AcceptedUnitsConvert) {
     }
 }
 
-TEST(Inputs, TellWhatIsNeededAndWhatFor) {
+TEST(Inputs, ReportWhatIsNeededAndWhatFor) {
   const MethodInputs& law = inputs_of("static");
   EXPECT_EQ(need_of(inputs_of("valve"), "time"), "required for fill, pulses, coil");
   EXPECT_EQ(need_of(law, "pressure"), "required");
@@ -144,7 +144,7 @@ TEST(Inputs, TellWhatIsNeededAndWhatFor) {
     }
 }
 
-TEST(Inputs, AreToldAsJson) {
+TEST(Inputs, AreReportedAsJson) {
   const auto json = to_json(inputs_of("static"));
   EXPECT_EQ(json["method"], "static");
   const auto named = [&](const std::string& name) {
@@ -158,7 +158,7 @@ TEST(Inputs, AreToldAsJson) {
   EXPECT_EQ(named("time")["quantity"], "time");
 }
 
-TEST(Inputs, AMethodOrKindThatThereIsNotIsTold) {
+TEST(Inputs, AnUnknownMethodOrKindIsReported) {
   EXPECT_THROW(inputs_of("statik"), config::Error);
   try {
     (void)template_of(inputs_of("valve"), "chrat");

@@ -151,7 +151,7 @@ TEST(Task, FindsAPairAndWritesItsJoint) {
   EXPECT_TRUE(json["held_out"].contains("r_squared"));
 }
 
-TEST(Task, TellsWhatAPairCannotBeAskedByItsName) {
+TEST(Task, ReportsAQuantityThatAPairLacksByItsName) {
   const auto asked = [&](const PairSettings& s) {
     return refusal([&] { (void)find(moved_pair(), s); });
   };
@@ -165,7 +165,7 @@ TEST(Task, TellsWhatAPairCannotBeAskedByItsName) {
   EXPECT_FALSE(is_time_range("../other.csv") || is_time_range("a.csv") || is_time_range(".."));
 }
 
-TEST(Task, TellsASettingByItsName) {
+TEST(Task, ReportsASettingByItsName) {
   const std::vector<Source> any = table("time [s],pressure [Pa gauge]\n0,1\n");
   const auto dynamic = [&](const DynamicSettings& s) { return [&any, s] { find(any, s); }; };
   expect_begins(refusal(dynamic({.actuator = actuator, .mass = "-1 kg"})), "mass: found \"-1 kg\"");

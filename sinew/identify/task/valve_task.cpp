@@ -188,7 +188,7 @@ ValveResult identified(const Measured& data, const ValveOptions& how, const std:
 }
 
 // Refuses settings of volume or conductance if the fillings determine both.
-void refuse_beside_added(const ValveSettings& s, const std::vector<Source>& others) {
+void refuse_with_added_volume(const ValveSettings& s, const std::vector<Source>& others) {
   const auto refuse = [](const char* name, const std::string& found, const char* expected) {
     config::fail({name, 0, 0}, "", found, expected);
   };
@@ -229,7 +229,7 @@ ValveFound find(const SourceList& sources, const ValveSettings& settings) {
   const ValveOptions options = options_of(settings, values, atmosphere);
   const std::vector<Source> others = held_out_tables(settings.hold_out, sources);
   if (const std::vector<AddedFill> fills = added_fills(sources, settings, values); !fills.empty()) {
-    refuse_beside_added(settings, others);
+    refuse_with_added_volume(settings, others);
     return found_of(identify_added(fills, options), settings);
   }
   if (sources.size() > 1)

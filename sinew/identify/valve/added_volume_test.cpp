@@ -41,7 +41,7 @@ ValveOptions isothermal() {
   return options;
 }
 
-TEST(ValveAddedVolume, TwoFillingsTellConductanceAndVolume) {
+TEST(ValveAddedVolume, TwoFillingsGiveConductanceAndVolume) {
   const std::vector<AddedFill> fills{filled(0, 500, 1), filled(5e-4, 500, 2)};
   const ValveResult r = identify_added(fills, isothermal());
   EXPECT_TRUE(r.refused.empty()) << r.refused;
@@ -132,7 +132,7 @@ TEST(ValveAddedVolume, AColumnPartsTheRowsOfOneTable) {
   EXPECT_EQ(parts[1].added, 5e-4);
 }
 
-TEST(ValveAddedVolume, WhatTellsNothingIsRefused) {
+TEST(ValveAddedVolume, DataWithoutInformationAreRefused) {
   const AddedFill one = filled(0, 100, 1), other = filled(5e-4, 100, 2);
   const auto refused = [](std::vector<AddedFill> fills) {
     return refusal_of([&] { identify_added(fills, isothermal()); });
@@ -146,7 +146,7 @@ TEST(ValveAddedVolume, WhatTellsNothingIsRefused) {
   expect_says(refused(exchanged), "fills no slower with more volume joined to it");
 }
 
-TEST(ValveFill, RowsOfTwoValvesThatTakeTurnsAreToldApart) {
+TEST(ValveFill, RowsOfTwoValvesThatAlternateAreDistinguished) {
   const AddedFill first = filled(0, 100, 1), second = filled(1e-3, 100, 2);
   Values time, pressure;
   for (std::size_t i = 0; i < first.data.rows(); ++i) {

@@ -53,7 +53,7 @@ TEST(ValveDuty, BothDelaysComeBackWithinTheirBrackets) {
 }
 
 // 3.4: 4 ms and 1 ms; 50 % becomes 42.5 % and 35 %.
-TEST(ValveDuty, TheStraightPartAloneTellsTheDifferenceOnly) {
+TEST(ValveDuty, TheStraightPartAloneGivesTheDifferenceOnly) {
   const ValveResult r =
       identify_duty(duty_map(4e-3, 1e-3, {25, 50}, 1e-3, 1, false, 0.3, 0.8), ValveOptions());
   expect_says(r.refused, "the straight part of the map does not separate the delays");

@@ -262,7 +262,7 @@ TEST(ValveFill, WithTheConductanceTheVolumeIsFound) {
   EXPECT_FALSE(r.flow_known);
 }
 
-TEST(ValveFill, WithoutEitherCIsRefusedAndCOverVTold) {
+TEST(ValveFill, WithoutEitherCIsRefusedAndCOverVReported) {
   ValveOptions options;
   options.exponent = 1;
   const std::vector<double> t = at_steps(0.01, 160);

@@ -203,7 +203,7 @@ Measured trace(const gas::Valve& valve, double noise, unsigned seed, bool comman
   return table(columns);
 }
 
-TEST(ValveCoil, TheDipTellsTheOpeningDelayAndTheClosingOneIsNotClaimed) {
+TEST(ValveCoil, TheDipGivesTheOpeningDelayAndTheClosingOneIsNotClaimed) {
   for (const bool boosted : {false, true})
     for (const bool commanded : {true, false}) {
       const ValveResult r =

@@ -316,26 +316,26 @@ TEST(MuscleRouting, TorqueIsTheSlopeOfLength) {
   m.cam.radii = {0.02, 0.03, 0.015};
   m.second = {"knee", robot::Muscle::Role::flexor, {}};
   m.second.cam.radius = 0.018;
-  const MuscleRouting cords(s.robot);
+  const MuscleRouting routing(s.robot);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> hip(4.0, 5.8), knee(5.0, 6.0);
   for (int trial = 0; trial < 100; ++trial) {
     const double angle[2] = {hip(random), knee(random)}, still[2] = {0, 0};
     air::Lanes<most_muscles> length, rate, ahead, behind;
     MuscleRouting::MomentArms<most_muscles> pulls, other;
-    cords.at(angle, still, length, rate, pulls);
+    routing.at(angle, still, length, rate, pulls);
     const double h = 1e-6;
     for (int k = 0; k < 2; ++k) {
       double a[2] = {angle[0], angle[1]}, b[2] = {angle[0], angle[1]};
       a[k] += h;
       b[k] -= h;
-      cords.at(a, still, ahead, rate, other);
-      cords.at(b, still, behind, rate, other);
+      routing.at(a, still, ahead, rate, other);
+      routing.at(b, still, behind, rate, other);
       EXPECT_NEAR(-(ahead[1] - behind[1]) / (2 * h), pulls[1][static_cast<std::size_t>(k)], 1e-7);
     }
   }
-  EXPECT_EQ(cords.joint(1, 1), 1);
-  EXPECT_EQ(cords.joint(0, 1), -1);
+  EXPECT_EQ(routing.joint(1, 1), 1);
+  EXPECT_EQ(routing.joint(0, 1), -1);
 }
 
 // A passive joint with a spring alone: the pendulum's period with k + m g r in place of m g r.

@@ -135,7 +135,7 @@ TEST(Trees, MassMatrixIsSymmetricAndPositive) {
 }
 
 // Parents and attachments equal to the defaults change no bit.
-TEST(Trees, AChainSaidInFullIsTheChain) {
+TEST(Trees, AChainWrittenInFullIsTheChain) {
   const plant::Setup plain = leg_with_muscles(4.95, 5.40);
   plant::Setup said = plain;
   said.robot.links[0].parent = robot::body_name;

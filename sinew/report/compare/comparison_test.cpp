@@ -108,7 +108,7 @@ TEST(Comparison, SequencesAreLaidOnEachOther) {
   EXPECT_FALSE(apart.channels.front().differences[1]->same);
 }
 
-TEST(Comparison, SaysWhatCannotBeCompared) {
+TEST(Comparison, ReportsWhatCannotBeCompared) {
   const auto message = [](auto does) -> std::string {
     try {
       does();

@@ -56,7 +56,7 @@ TEST(Claim, ABandOfOurOwnNeedsItsReason) {
   EXPECT_EQ(judge(predicted, m).wording, analysis::Wording::about);
 }
 
-TEST(Claim, AKnownDifferenceThatIsNoMoreIsToldToo) {
+TEST(Claim, AKnownDifferenceThatHasVanishedIsReportedToo) {
   Measured m = half_a_millisecond(0.7);
   m.because = "our coil is larger";
   EXPECT_EQ(judge(predicted, m).verdict, Agreement::differs_as_known);
@@ -69,7 +69,7 @@ TEST(Claim, AKnownDifferenceThatIsNoMoreIsToldToo) {
             1);  // the reason has to be removed
 }
 
-TEST(Claim, TellsNumbersWithTheirUnits) {
+TEST(Claim, ReportsNumbersWithTheirUnits) {
   const Claim both = judge(predicted, half_a_millisecond(0.47));
   EXPECT_EQ(both.computed, "0.47 ms");
   EXPECT_EQ(both.accept, "0.4 to 0.6 ms");

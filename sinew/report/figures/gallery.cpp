@@ -263,7 +263,7 @@ void Page::picture(const Exhibit& e) {
 }
 
 // Returns "section 4.3" for "4.3"; "table 4-1" stays as it is.
-std::string in_words(const std::string& where) {
+std::string section_text(const std::string& where) {
   return where.empty() || where[0] < '0' || where[0] > '9' ? where : "section " + where;
 }
 
@@ -271,7 +271,7 @@ void Page::claim(const Claim& c) {
   add("<div class=\"claim\">\n<div class=\"says\"><div>{} <span class=\"where\">{}</span></div>"
       "<span class=\"judged\"><span class=\"class\">{}</span> <span class=\"verdict {}\">{}</span>"
       "</span></div>",
-      escaped(c.says.empty() ? c.quantity : c.says), escaped(in_words(c.where)),
+      escaped(c.says.empty() ? c.quantity : c.says), escaped(section_text(c.where)),
       c.statement_class == StatementClass::none ? "" : to_text(c.statement_class),
       class_of(c.verdict), to_text(c.verdict));
   std::string numbers;

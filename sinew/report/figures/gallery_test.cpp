@@ -99,7 +99,7 @@ TEST(Gallery, NoPdfIsShownAsAnImage) {
   EXPECT_THAT(index_html(g), AllOf(HasSubstr("src=\"2-6.svg\""), HasSubstr("href=\"2-6.pdf\"")));
 }
 
-TEST(Gallery, FiguresOfWhichNothingIsSaidStandSideBySide) {
+TEST(Gallery, FiguresWithoutTextAreSideBySide) {
   Gallery g = gallery();
   EXPECT_THAT(index_html(g), AllOf(HasSubstr("<main>"), HasSubstr("id=\"choice\"")));
   g.exhibits[0].claims.clear();

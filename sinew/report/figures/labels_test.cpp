@@ -75,7 +75,7 @@ TEST(Labels, ChangeThePictureAndNotTheNumbersBehindIt) {
             (std::vector<std::string>{"time [s]", "hip desired [deg]"}));
 }
 
-TEST(Labels, ThatNoFigureSaysAreToldWithTheNearest) {
+TEST(Labels, WithoutAFigureAreReportedWithTheNearest) {
   Figure figure{.plots = {{.x = {"time", "s"}, .y = {"joint angles", "deg"}}}};
   FigureTexts phrases;
   phrases.add(figure);

@@ -471,7 +471,7 @@ void add_chart(Maker& make, const Plot& chart) {
 
 std::vector<Span> stance_of(const analysis::Record& record, const analysis::Machine& machine) {
   std::vector<Span> out;
-  for (const analysis::Stretch& s : record.stretches()) {
+  for (const analysis::PhaseSpan& s : record.phase_spans()) {
     if (!analysis::is_stance(machine, s.phase)) continue;
     const double from = record.time(s.first), to = record.end_of(s.last - 1);
     if (!out.empty() && from - out.back().to < 1e-9)

@@ -66,7 +66,7 @@ TEST(RunFigures, ShowTheSamplesOfTheLogInTheirUnit) {
   EXPECT_EQ(named(list, "joint-angles").plots[0].y.title(), "joint angles [deg]");
 }
 
-TEST(RunFigures, TellDesiredFromActualAndLeaveOutWhatThePageHides) {
+TEST(RunFigures, DistinguishDesiredFromActualAndLeaveOutWhatThePageHides) {
   const std::vector<Figure> list = figures(logged());
   const Figure& angles = named(list, "joint-angles");
   EXPECT_EQ(labelled(angles, "hip").kind, Kind::computed);

@@ -38,7 +38,7 @@ release = true
             R"({"time":9.5,"key":"control.gains.hip.angle","value":null,"leg":"left"}])");
 }
 
-TEST(Changes, WhatIsNotSaidAsAResolvedFileDoesIsLeftOut) {
+TEST(Changes, WhatIsNotWrittenLikeAResolvedFileIsLeftOut) {
   for (const char* text :
        {"change = []", "", "[[change]]\nkey = \"a\"\nvalue = \"1 rad\"",
         "[[change]]\ntime = \"3\"\nkey = \"a\"\nvalue = \"1 rad\"",

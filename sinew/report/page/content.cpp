@@ -230,7 +230,7 @@ Content content(const Run& run) {
     json["charts"] = charts_json(stand_charts(channels, stand_of_run), columns);
   }
   std::vector<analysis::Warning> warnings = end_warning(run);
-  std::ranges::move(omission_warning(blob, channels, record.stretches().size()),
+  std::ranges::move(omission_warning(blob, channels, record.phase_spans().size()),
                     std::back_inserter(warnings));
   std::ranges::move(analysis::cut_logs(table), std::back_inserter(warnings));
   std::ranges::copy(warned, std::back_inserter(warnings));

@@ -93,9 +93,9 @@ Json shapes_of(const Scene& scene) {
     for (const Point p : c.outline) outline.push_back(point(p));
     out["cams"].push_back({{"frame", c.frame}, {"outline", std::move(outline)}});
   }
-  out["cords"] = Json::array();
+  out["tendons"] = Json::array();
   for (const TendonShape& c : scene.tendons)
-    out["cords"].push_back({{"frame", c.frame}, {"from", point(c.from)}, {"to", point(c.to)}});
+    out["tendons"].push_back({{"frame", c.frame}, {"from", point(c.from)}, {"to", point(c.to)}});
   out["discs"] = Json::array();
   for (const Disc& d : scene.discs)
     out["discs"].push_back({{"frame", d.frame}, {"center", point(d.center)}, {"radius", d.radius}});
@@ -298,9 +298,9 @@ Json to_json(const Blob::Layout& layout) {
 
 Json phases_of(const analysis::Record& record, const analysis::Machine& machine) {
   Json stretches = Json::array();
-  const bool all = record.stretches().size() <= most_stretches;
-  for (std::size_t i = 0; all && i < record.stretches().size(); ++i) {
-    const analysis::Stretch s = record.stretches()[i];
+  const bool all = record.phase_spans().size() <= most_stretches;
+  for (std::size_t i = 0; all && i < record.phase_spans().size(); ++i) {
+    const analysis::PhaseSpan s = record.phase_spans()[i];
     stretches.push_back({{"phase", s.phase},
                          {"step", s.step},
                          {"from", record.time(s.first)},

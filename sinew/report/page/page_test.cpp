@@ -114,7 +114,7 @@ TEST(Content, OfAnEmptyLogIsAPageWithoutReplay) {
   EXPECT_FALSE(run["parameters"].empty());
 }
 
-TEST(Page, SaysWhatIsMissingWithoutNpm) {
+TEST(Page, ReportsWhatIsMissingWithoutNpm) {
   const config::Node node = resolved();
   const signals::Table t = table();
   const analysis::Analysis analysis(t, analysis::read_machine(node));

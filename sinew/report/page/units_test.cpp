@@ -42,7 +42,7 @@ TEST(PageUnits, ShowWhatTheLibraryShowsInEverySet) {
     }
 }
 
-TEST(PageUnits, ThePageBeginsInThoseThatWereAskedFor) {
+TEST(PageUnits, ThePageBeginsInTheRequestedOnes) {
   EXPECT_EQ(Json::parse(units_json(units::UnitSet::metric))["start"], "metric");
   EXPECT_EQ(Json::parse(units_json(units::UnitSet::metric))["sets"].size(), 3u);
   const Json own = Json::parse(units_json(chosen("thesis,length=mm")));

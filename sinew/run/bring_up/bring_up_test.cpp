@@ -162,7 +162,7 @@ TEST(BringUp, GoesOnWhereItStopped) {
   EXPECT_FALSE(day.has_printed("hang still")) << "what is done is not asked again";
 }
 
-TEST(BringUp, AsksForTheAirInEachSessionThatMovesValvesWithIt) {
+TEST(BringUp, RequestsTheAirInEachSessionThatMovesValvesWithIt) {
   Day day;
   day.answers = [](const std::string& question) -> std::optional<bool> {
     return question.find("emergency stop") == question.npos;
@@ -209,7 +209,7 @@ TEST(BringUp, BeginsAgainWithARobotOfOtherValuesAndAtAnotherBoard) {
   EXPECT_FALSE(day.has_printed("done before"));
 }
 
-TEST(BringUp, ACylindersValvesClickAndWhatIsNotTriedWithAirIsSaid) {
+TEST(BringUp, ACylindersValvesClickAndWhatIsNotTriedWithAirIsReported) {
   Day day({"cylinder.mode=valves"});
   EXPECT_TRUE(day.go()) << day.printed;
   for (const char* valve :

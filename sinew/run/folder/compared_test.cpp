@@ -147,7 +147,7 @@ TEST_F(Compared, AConstantMeasurementIsRefusedByItsName) {
   }
 }
 
-TEST_F(Compared, AReplayOfThePlantIsKeptAndToldOf) {
+TEST_F(Compared, AReplayOfThePlantIsKeptAndReported) {
   const std::string a = keep("a", {}, nullptr);
   ReplayRequest request{.run = a, .of = ReplayOf::plant, .folder = (root_ / "replayed").string()};
   const Replayed same = replay_run(request);

@@ -33,7 +33,7 @@ void refuse_to_overwrite(const fs::path& file, bool force, const std::vector<fs:
     refuse(file, "a file of another kind, which not even force=true replaces",
            "a name for what this command writes", "another name, or to remove it first");
   if (force || !fs::exists(file) || log::is_written_directly(file)) return;
-  refuse(file, "a file", "a name that is free", "another one, or force=true to replace it");
+  refuse(file, "a file", "an unused name", "another one, or force=true to replace it");
 }
 
 void require_folder_of(const fs::path& file) {

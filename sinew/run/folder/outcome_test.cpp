@@ -36,7 +36,7 @@ struct Missed {
   Outcome out;
 };
 
-TEST(MissedTicks, AreCountedAndTold) {
+TEST(MissedTicks, AreCountedAndReported) {
   for (const std::uint32_t ticks : {1u, 2u, 30u}) {
     const Missed run(ticks, {});
     EXPECT_FALSE(run.out.ended_early());
@@ -49,7 +49,7 @@ TEST(MissedTicks, AreCountedAndTold) {
   }
 }
 
-TEST(MissedTicks, AreNotToldWhereThereAreNone) {
+TEST(MissedTicks, AreNotReportedIfThereAreNone) {
   const Missed run(0, {});
   EXPECT_EQ(run.out.supervised.gaps, 0u);
   for (const std::string& warning : warnings_outside_log(run.experiment, run.out))
@@ -77,7 +77,7 @@ TEST(MissedTicks, AreInTheLogAndTheSummaryFromThatPeriodOn) {
   EXPECT_EQ(*summary.find("low_level.gaps"), 1.0);
 }
 
-TEST(MissedTicks, TenMillisecondsEndTheRunAndTheCauseSaysSo) {
+TEST(MissedTicks, TenMillisecondsEndTheRunAndAreReportedAsTheCause) {
   const Missed run(100, {});
   EXPECT_TRUE(run.out.ended_early());
   const std::string cause = cause_of(run.experiment, run.out);

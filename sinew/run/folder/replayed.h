@@ -1,5 +1,5 @@
-// run/folder/replayed.h - replay of a stored run: its readings are fed to today's controller, or
-// its valve commands to today's plant, and the result is compared with the recording.
+// run/folder/replayed.h - replay of a stored run: its readings are fed to the present controller,
+// or its valve commands to today's plant, and the result is compared with the recording.
 #pragma once
 
 #include <cstddef>

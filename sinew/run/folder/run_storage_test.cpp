@@ -94,7 +94,7 @@ TEST_F(KeptRunTest, ATableThatIsKeptIsTheRunItCameFrom) {
     EXPECT_EQ(row.values[0], row.values[1]) << row.key;
 }
 
-TEST_F(KeptRunTest, TellsOfAnExperimentThatCannotBeRunBeforeThereIsAFolder) {
+TEST_F(KeptRunTest, ReportsAnImpossibleExperimentBeforeItMakesAFolder) {
   RunRequest bad = request("a");
   bad.sets.push_back("joint.hip.angle_gain=9 lbf");
   EXPECT_THROW((void)run_and_store(bad), config::Error);

@@ -86,7 +86,7 @@ TEST(MuscleSetup, TakesSettings) {
   EXPECT_NE(plain.model, more.model);
 }
 
-TEST(MuscleSetup, SaysWhatIsWrong) {
+TEST(MuscleSetup, ReportsWhatIsWrong) {
   EXPECT_NE(refusal(robot_file).find("hip_flexor"), std::string::npos);  // which of four
   EXPECT_NE(refusal(robot_file, "hip_flexer").find("try \"hip_flexor\""), std::string::npos);
   EXPECT_NE(refusal(rig_file, "hip").find("\"hip\""), std::string::npos);

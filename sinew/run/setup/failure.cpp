@@ -10,7 +10,7 @@ namespace {
 std::string inches(double metres) { return config::format_quantity(metres, "m", "in"); }
 
 // Returns the length at which the braid's chamber has no volume, if that is the cause.
-std::string length_in_words(const air::Failure& failure, const actuator::Actuator& actuator) {
+std::string describe_length(const air::Failure& failure, const actuator::Actuator& actuator) {
   const double thread = actuator.braid.thread_length, caps = actuator.caps.length;
   if (failure.length <= caps)
     return fmt::format(
@@ -38,7 +38,7 @@ std::string to_text(const air::Failure& failure, const std::string& who,
   const double thread = actuator.braid.thread_length;
   const bool near = failure.length > -thread && failure.length < 2 * thread;
   const std::string length =
-      failure.of == Of::air && near ? length_in_words(failure, actuator) : std::string();
+      failure.of == Of::air && near ? describe_length(failure, actuator) : std::string();
   if (length.empty()) return what + "the motion ran away; try " + remedy;
   return failure.time > 0 ? what + length + "; or, where the motion ran away, " + remedy
                           : what + length;

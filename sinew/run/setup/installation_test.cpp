@@ -72,7 +72,7 @@ TEST(VelocityKeys, RefuseWhatCannotBe) {
             std::string::npos);
 }
 
-TEST(StiffnessSourceKey, SaysWhichSensorsTheLawWaitsFor) {
+TEST(StiffnessSourceKey, ReportsWhichSensorsTheLawWaitsFor) {
   EXPECT_EQ(hip_of({}).law_tick, 9);
   EXPECT_EQ(hip_of({"joint.hip.stiffness_source=flexor force"}).law_tick, 7);
   EXPECT_EQ(hip_of({"joint.hip.stiffness_source=none"}).law_tick, 3);

@@ -133,7 +133,7 @@ TEST(AirOfAFile, RegulatorsTakeTheLowLevelsSetPoints) {
   EXPECT_LT(least, e.air.atmosphere + 0.2 * 6.2e5);
 }
 
-TEST(AirOfAFile, WhatDoesNotGoTogetherIsSaid) {
+TEST(AirOfAFile, WhatDoesNotFitTogetherIsReported) {
   const auto says = [](const Sets& sets, const std::string& words) {
     const std::string text = refusal(sets);
     EXPECT_NE(text.find(words), std::string::npos) << text;

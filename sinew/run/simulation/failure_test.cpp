@@ -99,7 +99,7 @@ TEST(Failure, OfAirEndsTheRunInEveryWorld) {
 // ground, but not by muscles.
 const std::vector<std::string> runs_away{"actuator.bpa.loss.viscous=5000 N s/m"};
 
-TEST(Failure, OfTheMotionIsToldFromThatOfAir) {
+TEST(Failure, OfTheMotionIsDistinguishedFromThatOfAir) {
   const experiment::Experiment e = experiment::load(folder + "walk-test-1.toml", runs_away);
   const Outcome out = run(e);
   ASSERT_TRUE(out.failure);

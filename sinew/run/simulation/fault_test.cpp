@@ -62,7 +62,7 @@ experiment::Fault of_lever(What what, double amount = robot::not_set) {
   return {.at = 0.1, .of = "lever_angle", .what = what, .amount = amount};
 }
 
-TEST(Fault, ReadsAsItsWordSays) {
+TEST(Fault, ReadsAsItsWordPromises) {
   const auto at_20 = [](const experiment::Fault& f) { return read(f, 30)[20].counts; };
   EXPECT_EQ(at_20(of_lever(What::open)), 4095);
   EXPECT_EQ(at_20(of_lever(What::shorted)), 0);

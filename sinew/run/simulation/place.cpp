@@ -267,7 +267,7 @@ void Place::open_card(const std::string& device, const experiment::Experiment& e
   const host::RealTime real_time;
   const host::Latency latency = host::measure_latency(1);
   messages_ = host::problems(real_time);
-  messages_.insert(messages_.begin(), "timer " + host::in_words(latency));
+  messages_.insert(messages_.begin(), "timer " + host::describe_latency(latency));
   if (host::class_of(latency) == host::LatencyClass::unfit)
     messages_.emplace_back(
         "this computer wakes too late for a tick of 100 us: expect missed ticks; see sinew doctor");

@@ -308,7 +308,7 @@ TEST(RemoteBoards, AtAMachineAMuscleThatDoesNotEmptyEndsInADump) {
   }
 }
 
-TEST(RemoteBoards, ABoardThatHearsNothingHoldsThenVentsAndTheRunSaysWhy) {
+TEST(RemoteBoards, ABoardWithoutFramesHoldsThenVentsAndTheRunReportsWhy) {
   Bench bench(loaded("walk-test-1"));
   bench.in_period(100, [&](auto&) { bench.board.deaf = true; });
   const Outcome far = bench.run();

@@ -76,8 +76,8 @@ std::string cause_of(const experiment::Experiment& experiment, const Outcome& ou
 // plant; never throws once the loop runs.
 Outcome run(const experiment::Experiment& experiment, const RunOptions& options = {});
 
-// Feeds the recorded readings of a run to today's controller. Returns the edges that it decides,
-// for comparison with the recorded ones.
+// Feeds the recorded readings of a run to the present controller. Returns the edges that it
+// decides, for comparison with the recorded ones.
 Outcome replay(const experiment::Experiment& experiment, const signals::Table& recorded);
 
 }  // namespace sinew::run

@@ -270,7 +270,7 @@ std::string refusal(const std::vector<std::string>& sets) {
   return "nothing";
 }
 
-TEST(Load, SaysWhatContradictsItself) {
+TEST(Load, ReportsContradictions) {
   EXPECT_NE(refusal({"muscle.hip_flexor.inlet.valve=inlett"}).find("found \"inlett\"; expected"),
             std::string::npos);
   EXPECT_NE(refusal({"log.period=0.25 ms"}).find("multiple of 0.1 ms"), std::string::npos);

@@ -82,7 +82,7 @@ TEST(Simulation, InPortionsAndLookedAtHasTheSameBits) {
 
 // A sample of run() is taken at its own tick; a simulation that was advanced beyond that tick
 // has the same state.
-TEST(Simulation, HearsAndSaysWhatARunDoes) {
+TEST(Simulation, ReceivesAndReportsWhatARunDoes) {
   const experiment::Experiment e = load(kinds[0]);
   const Outcome whole = run(e);
   Simulation s(e);
@@ -192,7 +192,7 @@ TEST(Simulation, NumbersStandForNames) {
   EXPECT_THROW(by_number.change(hip, -1), std::invalid_argument);
 }
 
-TEST(Simulation, SaysWhyItEndedEarly) {
+TEST(Simulation, ReportsWhyItEndedEarly) {
   experiment::Experiment e = load({"walk-test-1", {}});
   Simulation whole(e);
   whole.advance_to(whole.last());

@@ -364,7 +364,7 @@ TEST(Steering, WhatIsNoSettingIsRefused) {
   EXPECT_TRUE(o.changes.empty());
 }
 
-TEST(Steering, MoreThanThereIsRoomForIsToldOf) {
+TEST(Steering, MoreThanThereIsRoomForIsReported) {
   Steering steering;
   int taken = 0;
   while (taken < 100000 && steering.change(0, 1)) ++taken;
@@ -372,7 +372,7 @@ TEST(Steering, MoreThanThereIsRoomForIsToldOf) {
   EXPECT_FALSE(steering.release(0));
 }
 
-TEST(SteeredClock, GoesAtThePaceThatWasAskedFor) {
+TEST(SteeredClock, RunsAtTheRequestedPace) {
   Steering steering;
   steering.pace(2);
   SteeredClock clock(steering);

@@ -117,7 +117,7 @@ TEST(Method, TheSameSeedAndCostsGiveTheSamePoints) {
   }
 }
 
-TEST(Method, WhatPagmoRefusesIsSaid) {
+TEST(Method, WhatPagmoRefusesIsReported) {
   OptimizerMethod method({.kind = MethodKind::nsga2, .dimensions = 2, .costs = 2, .population = 6});
   method.begin(std::vector<double>(12, 0.5), std::vector<double>(12, 1.0));
   EXPECT_THROW((void)method.ask(), std::runtime_error) << "no multiple of 4";

@@ -134,7 +134,7 @@ TEST_F(OptimizeTest, GoesOnFromItsFile) {
     const Tuned part = optimize_and_store(t, file_, first);
     stopper.join();
     EXPECT_TRUE(part.stopped || stop_after >= 12);
-    const HeldStudy held = read_results(file_);
+    const StoredStudy held = read_results(file_);
     EXPECT_GE(held.rows.size(), std::size_t(stop_after));
     StoredTuningOptions second{};
     std::vector<std::string> notes;
@@ -145,7 +145,7 @@ TEST_F(OptimizeTest, GoesOnFromItsFile) {
     EXPECT_NE(notes[0].find(std::to_string(held.rows.size()) + " of 18 runs are there"),
               std::string::npos)
         << notes[0];
-    const HeldStudy end = read_results(file_);
+    const StoredStudy end = read_results(file_);
     EXPECT_EQ(end.rows.size(), 18U);
     EXPECT_EQ(end.candidates.size(), 18U);
   }
@@ -186,7 +186,7 @@ TEST_F(OptimizeTest, RowsOfOtherCandidatesAreRefused) {
       << words;
 }
 
-TEST_F(OptimizeTest, WithNothingToGoByItSaysSo) {
+TEST_F(OptimizeTest, WithoutInformationItReportsThat) {
   TuningFile file = lever_file();
   file.minimize = {"ground_reaction.peak_normal_N"};  // a lever has no contact with the ground
   std::string words = message([&] { optimize(lever_tuning(file), {}); });
@@ -217,7 +217,7 @@ TEST_F(OptimizeTest, ACandidateIsRunInEveryCircumstance) {
   const Tuning t = lever_tuning(file);
   EXPECT_EQ(t.runs_of_candidate(), 12U);
   const Tuned tuned = optimize_and_store(t, file_, {});
-  const HeldStudy held = read_results(file_);
+  const StoredStudy held = read_results(file_);
   ASSERT_EQ(held.rows.size(), 60U);
   // Calculates the second candidate's goal by hand.
   double sum = 0, weight = 0;

@@ -72,7 +72,7 @@ TEST_F(TuningTest, TakesNumbersBesideWhatIsTuned) {
   EXPECT_EQ(t.goals.hold, 0.9);
 }
 
-TEST_F(TuningTest, SaysWhereAndWhatIsWrong) {
+TEST_F(TuningTest, ReportsWhereAndWhatIsWrong) {
   refuses("generations = 4", "generations = 0", "t.toml:7:1: generations");
   refuses("generations = 4", "generation = 4", "generations");
   refuses("minimize", "maximise", "maximise");

@@ -119,7 +119,7 @@ TEST_F(StudyPageTest, NeverLeavesItsElement) {
   EXPECT_NE(study_page_of({file_, file_}).find("One joint and One joint"), page.npos);
 }
 
-TEST_F(StudyPageTest, IsAskedOfStudiesOnly) {
+TEST_F(StudyPageTest, IsRequestedOfStudiesOnly) {
   EXPECT_TRUE(is_study(file_));
   EXPECT_TRUE(is_study("nowhere.db"));
   EXPECT_FALSE(is_study(lever));

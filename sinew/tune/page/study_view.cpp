@@ -137,7 +137,7 @@ bool is_study(const fs::path& file) {
 }
 
 StudyView study_view(const fs::path& file) {
-  HeldStudy held = read_results(file);
+  StoredStudy held = read_results(file);
   const StudyRequest& request = held.request;
   const bool tune = !request.of_candidates.empty();
   StudyView out{.title = request.title.empty() ? title_of(request.experiment) : request.title,

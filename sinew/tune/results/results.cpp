@@ -90,7 +90,7 @@ Merged merge(const std::vector<fs::path>& from, const fs::path& to) {
   rows.add(to, out.rows());
   const std::size_t before = rows.size();
   for (const fs::path& file : from) {
-    const HeldStudy held = read_results(file);
+    const StoredStudy held = read_results(file);
     require_same(file, held.request, request);
     rows.add(file, held.rows);
   }
@@ -588,7 +588,7 @@ void Results::throw_failure() const {
   require_place();
 }
 
-HeldStudy read_results(const fs::path& file) {
+StoredStudy read_results(const fs::path& file) {
   if (!fs::is_regular_file(file))
     run::refuse(file, fs::exists(file) ? "no file" : "nothing", "a study's file");
   Database database(file, Database::Use::read);
@@ -596,7 +596,7 @@ HeldStudy read_results(const fs::path& file) {
   // Reads the rows of one instant while others are added.
   database.run("BEGIN");
   require_whole(database, file);
-  HeldStudy out{.request = study_of(database, file), .rows = {}};
+  StoredStudy out{.request = study_of(database, file), .rows = {}};
   out.rows = rows_of(database, file, out.request);
   out.candidates = candidates_of(database, file, out.request);
   return out;

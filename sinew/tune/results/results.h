@@ -84,7 +84,7 @@ class Results {
 };
 
 // The contents of a file.
-struct HeldStudy {
+struct StoredStudy {
   StudyRequest request;
   std::vector<Row> rows;                 // in the points' order
   std::vector<CandidateRow> candidates;  // those of a tuning, in their order
@@ -92,7 +92,7 @@ struct HeldStudy {
 
 // Throws like Results, and log::Error if values do not match their checksum. Changes nothing; the
 // file may be written meanwhile.
-HeldStudy read_results(const std::filesystem::path& file);
+StoredStudy read_results(const std::filesystem::path& file);
 
 // A sweep whose rows are stored at once, and its messages.
 

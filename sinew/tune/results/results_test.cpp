@@ -97,7 +97,7 @@ TEST_F(ResultsTest, HoldsRowsAsTheyAre) {
   for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_TRUE(same(there[i], rows[i])) << i;
 }
 
-TEST_F(ResultsTest, IsAskedByItsHeadings) {
+TEST_F(ResultsTest, IsFoundByItsHeadings) {
   {
     Results results(file_, request_of(study()));
     results.add_all(some_rows());
@@ -157,7 +157,7 @@ TEST_F(ResultsTest, AKilledWriterLeavesWhatItAdded) {
   }
 }
 
-TEST_F(ResultsTest, RefusesAnotherStudyAndSaysWhatDiffers) {
+TEST_F(ResultsTest, RefusesAnotherStudyAndReportsWhatDiffers) {
   { Results(file_, request_of(study())).add(some_rows()[0]); }
   const auto refusal = [&](const Sweep& s) {
     return message([&] { const Results results(file_, request_of(s)); });
@@ -256,7 +256,7 @@ TEST_F(ResultsTest, AFlippedBitIsRefusedOrChangesNothing) {
     results.add_all(some_rows());
     results.add_candidates(candidates);
   }
-  const HeldStudy right = read_results(file_);
+  const StoredStudy right = read_results(file_);
   EXPECT_EQ(right.candidates, candidates);
   std::ifstream in(file_, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
@@ -268,7 +268,7 @@ TEST_F(ResultsTest, AFlippedBitIsRefusedOrChangesNothing) {
     spoilt[at] = static_cast<char>(spoilt[at] ^ (1 << random() % 8));
     std::ofstream(file_, std::ios::binary) << spoilt;
     try {
-      const HeldStudy held = read_results(file_);
+      const StoredStudy held = read_results(file_);
       EXPECT_EQ(held.candidates, right.candidates) << at;
       EXPECT_EQ(held.rows.size(), right.rows.size()) << at;
       for (std::size_t k = 0; k < std::min(held.rows.size(), right.rows.size()); ++k)
@@ -312,7 +312,7 @@ TEST_F(ResultsTest, HasOneWriter) {
 }
 
 // Waits for another program's transaction, then reports it; no stored row is lost.
-TEST_F(ResultsTest, TellsOfAnotherProgramsTransaction) {
+TEST_F(ResultsTest, ReportsAnotherProgramsTransaction) {
   Results results(file_, request_of(study()));
   results.add(some_rows()[0]);
   sqlite3* db = nullptr;
@@ -325,7 +325,7 @@ TEST_F(ResultsTest, TellsOfAnotherProgramsTransaction) {
   EXPECT_EQ(results.rows().size(), 1u);
 }
 
-TEST_F(ResultsTest, TellsOfAFolderThatIsMissingOrMayNotBeWritten) {
+TEST_F(ResultsTest, ReportsAFolderThatIsMissingOrNotWritable) {
   const StudyRequest request = request_of(study());
   EXPECT_NE(message([&] { const Results r(folder_ / "no/study.db", request); }).find("no folder"),
             std::string::npos);
