@@ -1,4 +1,4 @@
-// air/failure.h - failure of a simulated machine whose state is not finite any more: part and time.
+// air/failure.h - failure of a simulated machine: the part whose state is not finite, and the time.
 //
 // A world detects it at the node where it happens, stops there and reports a fault for every
 // reading, so that no run continues with invalid values.

@@ -20,32 +20,31 @@ std::string format_text(const std::string& kind, int number) {
   return number == 0 ? "" : fmt::format("sinew.{}/{}", kind, number);
 }
 
-std::string in_words(const config::Migrated::Edit& edit) {
+std::string describe_edit(const config::Migrated::Edit& edit) {
   if (edit.was.empty()) return fmt::format("line {}: {} is added", edit.line, edit.is);
   return fmt::format("line {}: {} becomes {}", edit.line, edit.was, edit.is);
 }
 
-// Leaves the thesis's own tables as they are. Throws config::Error for one that cannot be read.
-void leave_alone(const fs::path& file, Migration& out) {
+// Reports that a table of the thesis is not migrated. Throws config::Error if it cannot be read.
+void keep_table(const fs::path& file, Migration& out) {
   if (file.filename().string().starts_with("gain")) {
     config::read_gains(file.string());
-    out.reason = "gains as the thesis wrote them, which files.gains reads";
+    out.reason = "gains in the format of the thesis, which files.gains reads";
   } else {
     config::read_valve_timing(file.string());
-    out.reason = "a table duty,close,open, which files.valve_timing reads";
+    out.reason = "table duty,close,open, which files.valve_timing reads";
   }
 }
 
 [[noreturn]] void refuse(const fs::path& taken, const std::string& try_this) {
-  config::fail({taken.string(), 0, 0}, "", "a file that is there already", "a name that is free",
-               try_this);
+  config::fail({taken.string(), 0, 0}, "", "an existing file", "an unused name", try_this);
 }
 
 // Chooses an unused path for the new file, and for the old one if it stays in its folder.
 void choose_places(const fs::path& file, const MigrateOptions& options, Migration& out) {
   if (!options.folder.empty()) {
     if (fs::exists(options.folder) && !fs::is_directory(options.folder))
-      config::fail({options.folder, 0, 0}, "", "a file", "a folder, or a name that is free");
+      config::fail({options.folder, 0, 0}, "", "a file", "a folder, or an unused name");
     const fs::path to = fs::path(options.folder) / file.filename();
     if (fs::exists(fs::symlink_status(to))) refuse(to, "an empty folder");
     out.written = to.string();
@@ -53,7 +52,7 @@ void choose_places(const fs::path& file, const MigrateOptions& options, Migratio
   }
   const fs::path kept = file.string() + ".bak";
   if (fs::exists(fs::symlink_status(kept)))
-    refuse(kept, "to take it away, or another folder for the new file");
+    refuse(kept, "to remove it, or another folder for the new file");
   out.written = file.string();
   out.kept = kept.string();
 }
@@ -75,7 +74,7 @@ Migration migrate(const std::string& path, const MigrateOptions& options) {
   Migration out{.file = path, .is_dry = !options.write};
   const fs::path file(path);
   if (file.extension() == ".dat") {
-    leave_alone(file, out);
+    keep_table(file, out);
     return out;
   }
   const std::string old_text = config::read_text_file(path, "a TOML file");
@@ -83,7 +82,7 @@ Migration migrate(const std::string& path, const MigrateOptions& options) {
   out.was = format_text(migrated.was_kind, migrated.from);
   out.is = format_text(migrated.kind, migrated.to);
   if (migrated.edits.empty()) return out;
-  for (const auto& edit : migrated.edits) out.changes.push_back(in_words(edit));
+  for (const auto& edit : migrated.edits) out.changes.push_back(describe_edit(edit));
   choose_places(file, options, out);
   if (options.write) write(old_text, migrated.text, out);
   return out;
@@ -91,8 +90,9 @@ Migration migrate(const std::string& path, const MigrateOptions& options) {
 
 std::string text_of(const Migration& m) {
   std::string out;
-  if (!m.reason.empty()) return fmt::format("{}: {}; left alone\n", m.file, m.reason);
-  if (m.changes.empty()) return fmt::format("{}: {} is the newest; left alone\n", m.file, m.is);
+  if (!m.reason.empty()) return fmt::format("{}: {}; unchanged\n", m.file, m.reason);
+  if (m.changes.empty())
+    return fmt::format("{}: {} has the newest format; unchanged\n", m.file, m.is);
   for (const std::string& change : m.changes) out += fmt::format("{}: {}\n", m.file, change);
   const std::string to = m.written == m.file ? "" : " in " + m.written;
   const std::string old =

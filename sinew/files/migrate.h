@@ -22,10 +22,10 @@ struct MigrateOptions {
 struct Migration {
   std::string file;                  // as given
   std::string was, is;               // old and new format: "sinew.robot/1"; `was` may be empty
-  std::vector<std::string> changes;  // sentences with lines; empty: the file is left alone
+  std::vector<std::string> changes;  // sentences with lines; empty: the file is unchanged
   std::string written, kept;         // new file, and new place of the old one; empty: neither
   bool is_dry = false;               // neither file is written; these are the places for them
-  std::string reason;                // why a file without a Sinew format is left alone
+  std::string reason;                // why a file without a Sinew format is unchanged
 };
 
 // Converts a file. Throws config::Error with all faults of the file, and log::Error if the new file

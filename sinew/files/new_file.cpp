@@ -372,7 +372,7 @@ std::vector<Draft> drafts(const std::string& kind, const std::string& name,
                           const NewOptions& options) {
   const fs::path folder(options.folder);
   if (!options.folder.empty() && fs::exists(folder) && !fs::is_directory(folder))
-    config::fail({options.folder, 0, 0}, "", "a file", "a folder, or a name that is free");
+    config::fail({options.folder, 0, 0}, "", "a file", "a folder, or an unused name");
   const bool has_muscle = !options.actuator.empty();
   if (has_muscle && kind != "robot")
     config::fail({options.actuator, 0, 0}, "", fmt::format("an actuator for a new {}", kind),
@@ -396,8 +396,8 @@ NewFiles write_new(const std::string& kind, const std::string& name, const NewOp
   const std::vector<Draft> all = drafts(kind, name, options);
   for (const Draft& one : all)
     if (fs::exists(fs::symlink_status(one.file)))
-      config::fail({one.file.string(), 0, 0}, "", "a file that is there already",
-                   "a name that is free", "another name, or to take it away");
+      config::fail({one.file.string(), 0, 0}, "", "an existing file", "an unused name",
+                   "another name, or to remove it");
   NewFiles out;
   for (const Draft& one : all) {
     if (one.file.has_parent_path()) run::make_folders(one.file.parent_path());

@@ -167,7 +167,7 @@ TEST_F(AssembleTest, NamesThatSayTheChannelNeedNoMapping) {
       std::string::npos);
 }
 
-TEST_F(AssembleTest, ColumnsWithoutAChannelAreToldOrKept) {
+TEST_F(AssembleTest, ColumnsWithoutAChannelAreReportedOrKept) {
   const std::string file =
       put("a.csv", "time [s],elbow_angle [rad],Raum T [degC]\n0,1,20\n1,2,21\n");
   EXPECT_TRUE(
@@ -315,7 +315,7 @@ TEST_F(AssembleTest, ACounterThatBeginsAgainIsContinued) {
     ASSERT_EQ(s.time_ns.size(), 400u) << c.name;
     for (std::size_t i = 1; i < 400; ++i)
       EXPECT_NEAR(static_cast<double>(s.time_ns[i] - s.time_ns[i - 1]), 1e9 * c.step * c.unit, 2e3);
-    EXPECT_TRUE(has_note(a, "began again once"));
+    EXPECT_TRUE(has_note(a, "wrapped once"));
   }
   // A recording that restarts is not a counter that overflows.
   std::string text = "t [ms],w [rad]\n";
@@ -359,7 +359,7 @@ TEST_F(AssembleTest, ARateStandsInPlaceOfAColumn) {
 
 // --- refused input ---
 
-TEST_F(AssembleTest, SaysWhatIsWrongAndWhatToDo) {
+TEST_F(AssembleTest, ReportsWhatIsWrongAndWhatToDo) {
   const std::string file = put("a.csv", "time [s],Winkel [deg],F [N],p\n0,1,2,3\n0.01,2,3,4\n");
   const auto wrong = [&](const Mapping& m, std::vector<std::string> parts,
                          const Joining& joining = {}) {

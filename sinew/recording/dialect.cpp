@@ -128,7 +128,7 @@ namespace {
 
 // Clock and units in the header of a LabVIEW table.
 struct LabViewHeader {
-  bool is_there = false, has_x = true;
+  bool present = false, has_x = true;
   double step = 0, first = 0;      // Delta_X and X0  [s]
   char decimal = '\0';             // '\0': not given
   std::vector<std::string> units;  // units of the columns after X_Value
@@ -181,7 +181,7 @@ StatedSeparator stated_separator(std::string_view text) {
 
 // Reads a line of LabVIEW's header: a key, then its value or one value for each column.
 void take_labview(const Row& line, LabViewHeader& out) {
-  out.is_there = true;
+  out.present = true;
   if (line.cells.size() < 2) return;
   const std::string_view key = line.cells[0].text, value = line.cells[1].text;
   const auto number = number_in(value) ? number_in(value) : number_in(value, {','});
@@ -263,7 +263,7 @@ ColumnKind kind_of_column(const Sample& sample, std::size_t column) {
 
 // Returns how plausible a sample's separator is: the share of values among the cells of rows with
 // the usual width; a quarter of that for a single column, as any text makes one.
-double sense_of(const Sample& sample) {
+double plausibility_of(const Sample& sample) {
   std::size_t values = 0, others = 0, rows = 0;
   for (std::size_t i = later_half(sample); i < sample.rows.size(); ++i) {
     const Row& row = sample.rows[i];
@@ -320,10 +320,10 @@ Sample sample_of(std::string_view text, bool decimal_comma) {
     Sample sample =
         read_sample(text, stated.separator != '\0' ? stated.separator : separator, stated.at);
     find_width(sample);
-    double sense = sense_of(sample);
-    if (decimal_comma && sample.separator == ',') sense *= 0.2;  // below one column's
-    if (sense <= most) continue;
-    most = sense;
+    double plausibility = plausibility_of(sample);
+    if (decimal_comma && sample.separator == ',') plausibility *= 0.2;  // below one column's
+    if (plausibility <= most) continue;
+    most = plausibility;
     best = std::move(sample);
   }
   if (most == 0 && stated.separator == '\0' && !best.rows.empty()) {
@@ -350,9 +350,9 @@ bool is_units_row(const Row& row) {
 }
 
 // Returns the index of the first row of values; the number of rows if no row has values.
-std::size_t first_of_values(const Sample& sample) {
+std::size_t first_value_row(const Sample& sample) {
   const std::vector<Row>& rows = sample.rows;
-  if (sample.labview.is_there) return std::min<std::size_t>(1, rows.size());
+  if (sample.labview.present) return std::min<std::size_t>(1, rows.size());
   std::size_t first_fitting = rows.size();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!sample.fits(rows[i])) continue;
@@ -391,7 +391,7 @@ class HeaderReader {
   HeaderReader(const Sample& sample, const Source& source) : sample_(sample), source_(source) {}
 
   void read(Dialect& out) {
-    const std::size_t first = first_of_values(sample_);
+    const std::size_t first = first_value_row(sample_);
     std::size_t top = first;
     if (!source_.columns.empty()) {
       for (const std::string& column : source_.columns)

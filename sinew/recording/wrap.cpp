@@ -43,7 +43,7 @@ std::optional<double> Unwrapper::range_of(double time) const {
 }
 
 std::string wraps_text(std::string_view column, const Unwrapper& clock) {
-  return fmt::format("{}: a counter of {} bits, which began again {} and was continued", column,
+  return fmt::format("{}: a counter of {} bits wrapped {}; its times continue", column,
                      clock.bits(),
                      clock.wraps() == 1 ? "once" : fmt::format("{} times", clock.wraps()));
 }

@@ -16,7 +16,7 @@ namespace {
 
 using cli::as_options;
 
-TEST(Settings, AreToldAsOptions) {
+TEST(Settings, AreReportedAsOptions) {
   EXPECT_EQ(as_options("try another one, or force=true to replace it"),
             "try another one, or --force to replace it");
   EXPECT_EQ(as_options("try full_scale=\"10 V\", units.gage=V or drop_incomplete=true"),

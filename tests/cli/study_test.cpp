@@ -59,7 +59,7 @@ class StudyOverMpi : public Study {
   const std::string sinew = sinew::test::program() + " sweep experiments/one-joint.toml --seeds ";
 };
 
-TEST_F(StudyOverMpi, IsTheSameTableAndAnErrorIsSaidOnce) {
+TEST_F(StudyOverMpi, IsTheSameTableAndAnErrorIsReportedOnce) {
   if (!SINEW_HAS_MPI || std::system("command -v mpirun >/dev/null") != 0)
     GTEST_SKIP() << "no mpirun, or a program without MPI";
   const std::string mpirun = "mpirun --oversubscribe -n 3 ";

@@ -85,7 +85,7 @@ class View : public ::testing::Test {
   int port_ = 0;
 };
 
-TEST_F(View, WithoutTheTokenNobodyIsToldOrSteers) {
+TEST_F(View, WithoutTheTokenNoPageIsInformedOrSteers) {
   ASSERT_THAT(path_, MatchesRegex("/[0-9a-f]{32}/"));
   EXPECT_THAT(answer(request(path_)), StartsWith("HTTP/1.1 200"));
   EXPECT_THAT(answer(upgrade(path_ + "live")), StartsWith("HTTP/1.1 101"));
@@ -183,7 +183,7 @@ TEST_F(View, HalfOpenConnectionsBlockNobody) {
 }
 
 // A client that sends a byte every now and then is closed like one that sends nothing.
-TEST_F(View, WhoSaysHalfOfItIsLeftAfterAWhile) {
+TEST_F(View, HalfARequestIsDroppedAfterAWhile) {
   Wire silent(port_), half(port_), slow(port_);
   half.send("GET / HTTP/1.1\r\n");
   slow.send("GET /");
