@@ -306,7 +306,7 @@ class Interface(unittest.TestCase):
             self.assertAlmostEqual(slave.get("time"), float(end.get("stopTime", "0")), delta=0.02)
             slave.free()
 
-    def test_a_machine_that_fails_says_why(self) -> None:
+    def test_a_machine_that_fails_reports_why(self) -> None:
         """The supervisor trips: the FMU returns an error with the run's message at each further call."""
         path = f"{ROOT}/experiments/faults/valve-stuck-open.toml"
         slave = fmu(path).instantiate().initialize()

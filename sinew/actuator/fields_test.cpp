@@ -95,7 +95,7 @@ TEST(ActuatorFields, FillEveryMember) {
   EXPECT_EQ(a.creep.time, (std::array{0.5, 10.0}));
 }
 
-TEST(ActuatorFields, AskForWhatWasGivenAndAFewMore) {
+TEST(ActuatorFields, RequestWhatWasGivenAndAFewMore) {
   FieldVisitor v = leg();
   Actuator a;
   fields(v, a);

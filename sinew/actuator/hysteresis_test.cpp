@@ -210,7 +210,7 @@ TEST(Hysteresis, LoopsOfLengthTake) {
 }
 
 // Loops of both: never less than -w V_max/K times the total change of pressure.
-TEST(Hysteresis, LoopsOfBothGiveBackNoMoreThanIsSaid) {
+TEST(Hysteresis, LoopsOfBothReturnNoMoreThanTheBound) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> lengths(2.45, 4.0), pressures(0.5 * bar, 7 * bar);
   const Actuator a = with({.half_width = 0.05 * bar, .volume_pressure = 40 * bar});

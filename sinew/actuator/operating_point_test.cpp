@@ -39,7 +39,7 @@ TEST(OperatingPoint, DrawnOutItPullsWithItsLossesAndContractingWithoutThem) {
   }
 }
 
-TEST(OperatingPoint, SaysWhereTheModelEndsAndOnlyThere) {
+TEST(OperatingPoint, ReportsTheEndOfTheModelAndOnlyThere) {
   Actuator a = thesis_actuator();
   EXPECT_TRUE(operating_point(a, 0.085, 4e5, around).beyond.empty());
   EXPECT_EQ(operating_point(a, 0.99 * shortest_length(a), 4e5, around).beyond.size(), 1u);

@@ -28,7 +28,7 @@ double half_95(const Prediction& p, double length, double pressure = 3e5) {
   return force_interval(p, length, pressure).half_95;
 }
 
-TEST(Prediction, EveryHalfWidthStandsWhereItIsToldOf) {
+TEST(Prediction, EveryHalfWidthIsAtItsPlaceInTheReport) {
   const Prediction p = known();
   for (const double length : p.lengths) EXPECT_EQ(half_95(p, length), 3);
   EXPECT_NEAR(half_95(p, 0.225), 5, 1e-12);  // halfway in the widest gap

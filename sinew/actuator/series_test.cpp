@@ -39,7 +39,7 @@ TEST(Series, TheSpringIsStretchedByTheTension) {
   }
 }
 
-TEST(Series, TheBladderIsOneWhetherAskedOnceOrTwice) {
+TEST(Series, TheBladderIsOneHoweverOftenItIsEvaluated) {
   const Bladder b = steep().bladder;
   for (const double l : {0.06, 0.09, 0.0975, 0.1}) {
     EXPECT_DOUBLE_EQ(bladder_pull(b, l).tension, bladder_tension(b, l));

@@ -112,7 +112,7 @@ TEST(Faults, ARupturedMuscleGoesToTheRoomsPressure) {
 }
 
 // A rigid chamber, isothermal and choked, empties by gas/leak.h: P = P_0 exp(-t K R T/V), m' = K P.
-TEST(Faults, AHoleEmptiesAsItsLawSays) {
+TEST(Faults, AHoleEmptiesAsItsLawPredicts) {
   const Broken machine;
   const double area = 3e-8, begin = 0.0123456789;
   Air network = machine.network({.what = What::hole, .begin = begin, .leak = {.area = area}});

@@ -215,7 +215,7 @@ TEST(PlainAir, MachinesSideBySideAreThoseAlone) {
 }
 
 // A chamber without air is reported for the machine that has it, and for no other.
-TEST(PlainAir, ADensityThatIsNoneIsTold) {
+TEST(PlainAir, ANonFiniteDensityIsReported) {
   std::mt19937 random(3);
   const Network a = random_machine(random, 2), b = random_machine(random, 2);
   const PlainAir<most, 2> air({&a, &b});

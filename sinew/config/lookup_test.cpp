@@ -26,7 +26,7 @@ struct Item {
   std::string name;
 };
 
-TEST(Named, TheOnlyItemNeedsNoNameAndASlipIsTold) {
+TEST(Named, TheOnlyItemNeedsNoNameAndATypingErrorIsReported) {
   const std::vector<Item> one{{"inlet"}}, two{{"inlet"}, {"exhaust"}};
   EXPECT_EQ(&named(one, "", "file", "valve"), &one[0]);
   EXPECT_EQ(&named(two, "exhaust", "file", "valve"), &two[1]);

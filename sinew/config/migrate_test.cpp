@@ -167,7 +167,7 @@ TEST(Migrate, AReaderNamesTheKeyInPlaceOfOneThatIsGone) {
   EXPECT_FALSE(removed_key("reported[4].value", history()));
 }
 
-TEST(Migrate, SaysWhatItCannotDo) {
+TEST(Migrate, ReportsWhatItCannotDo) {
   const std::map<std::string, std::string> cases = {
       {"format = \"sinew.robot/4\"\n",
        "x.toml:1:1: format: found \"sinew.robot/4\"; expected \"sinew.robot/3\" or older"},

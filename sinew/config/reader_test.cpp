@@ -139,7 +139,7 @@ TEST(Reader, AMissingKeyIsReportedWithItsMeaning) {
 }
 
 // A missing key has the same description as a wrong one.
-TEST(Reader, AMissingKeySaysItsWordsAndItsKind) {
+TEST(Reader, AMissingKeyIsReportedWithItsWordsAndItsKind) {
   const Node root = parse_text("x = 1\n", "a.toml");
   Reader reader(root);
   Law law{};
@@ -224,7 +224,7 @@ TEST(Reader, NoMachineIsAsLargeAsThat) {
                        "curve: found \"1e300 1/Pa\""));
 }
 
-TEST(Reader, TheReasonOfARangeIsTold) {
+TEST(Reader, TheReasonOfARangeIsReported) {
   double share = 0, period = 0;
   const Node root = parse_text("share = 1.2\nperiod = \"1 us\"\n", "a.toml");
   Reader reader(root);
@@ -284,7 +284,7 @@ TEST(Reader, AllProblemsComeAtOnce) {
   EXPECT_EQ(r.reader.problems().size(), 3u);
 }
 
-TEST(Reader, ProvenanceIsWhatTheFileSays) {
+TEST(Reader, ProvenanceIsThatOfTheFile) {
   const Reading r(R"(source = "table 6-1"
 length = { value = "3.1 in", fit = true, range = ["3.05 in", "3.25 in"], uncertainty = "0.01 in", source = "calibration" }
 stiffness = "3 N/m"
@@ -340,7 +340,7 @@ TEST(Reader, ADamagedRangeOrUncertaintyIsReported) {
                        "found both fit and guess"));
 }
 
-TEST(Reader, ANumberWithoutASourceIsAsBadAsTheCallerSays) {
+TEST(Reader, ANumberWithoutASourceIsAsBadAsTheCallerRequests) {
   const auto needed = [](bool is) {
     return ReaderOptions{.needs_source = [is](const std::string&) { return is; }};
   };

@@ -24,7 +24,7 @@ TEST(Setting, IsReadInItsUnit) {
   EXPECT_TRUE(at_commas("").empty());
 }
 
-TEST(Setting, SaysItsNameAndRange) {
+TEST(Setting, ReportsItsNameAndRange) {
   const Range range = above_zero(10, "it hangs");
   EXPECT_EQ(refusal("1 kg", range), "nothing");
   EXPECT_EQ(refusal("10 kg", range), "nothing");

@@ -16,16 +16,16 @@ namespace fs = std::filesystem;
 using units::UnitSet;
 
 // Creates a user's folder with or without settings; restores the environment.
-class UnitsAskedOf : public testing::Test {
+class RequestedUnits : public testing::Test {
  protected:
-  UnitsAskedOf() {
+  RequestedUnits() {
     folder_ = fs::path(testing::TempDir()) / "sinew-units-asked-of";
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "sinew");
     setenv("XDG_CONFIG_HOME", folder_.c_str(), 1);
     unsetenv(units_variable);
   }
-  ~UnitsAskedOf() override {
+  ~RequestedUnits() override {
     unsetenv("XDG_CONFIG_HOME");
     unsetenv(units_variable);
     fs::remove_all(folder_);
@@ -55,7 +55,7 @@ Node run_in(const std::string& units) {
   return parse_text("[page]\nunits = \"" + units + "\"\n", "run.toml");
 }
 
-TEST_F(UnitsAskedOf, NobodyTheCallersAreShown) {
+TEST_F(RequestedUnits, NobodyTheCallersAreShown) {
   EXPECT_EQ(shown({}), "thesis");
   EXPECT_FALSE(units_to_show({}, UnitSet::thesis).is_requested);
   setenv(units_variable, "", 1);
@@ -63,7 +63,7 @@ TEST_F(UnitsAskedOf, NobodyTheCallersAreShown) {
   EXPECT_FALSE(units_to_show({.now = " "}).is_requested);
 }
 
-TEST_F(UnitsAskedOf, TheStrongerOneWins) {
+TEST_F(RequestedUnits, TheStrongerOneWins) {
   settings("units = \"si,length=cm\"\n");
   EXPECT_EQ(shown({}), "si,length=cm");
   const Node run = run_in("metric");
@@ -73,14 +73,14 @@ TEST_F(UnitsAskedOf, TheStrongerOneWins) {
   EXPECT_EQ(shown({.now = "si", .run = &run}), "si");
 }
 
-TEST_F(UnitsAskedOf, ChoicesAloneStandOnTopOfWhatAWeakerOneSays) {
+TEST_F(RequestedUnits, ChoicesAloneAreAddedToThoseOfAWeakerOne) {
   settings("units = \"metric,length=cm\"\n");
   setenv(units_variable, "pressure=kPa gauge", 1);
   EXPECT_EQ(shown({}), "metric,length=cm,pressure=kPa gauge");
   EXPECT_EQ(shown({.now = "length=m"}), "metric,length=m,pressure=kPa gauge");
 }
 
-TEST_F(UnitsAskedOf, AResolvedRunSaysItToo) {
+TEST_F(RequestedUnits, AResolvedRunHasThemToo) {
   const Node run =
       parse_text("[page]\nunits = { value = \"metric\", source = \"here\" }\n", "r.toml");
   EXPECT_EQ(shown({.run = &run}), "metric");
@@ -89,7 +89,7 @@ TEST_F(UnitsAskedOf, AResolvedRunSaysItToo) {
   EXPECT_EQ(shown({.run = &silent}), "thesis");
 }
 
-TEST_F(UnitsAskedOf, MessagesSayWhereAWrongWordStands) {
+TEST_F(RequestedUnits, MessagesSayWhereAWrongWordStands) {
   EXPECT_EQ(wrong({.now = "mertic", .now_is = "--units"}),
             "--units: found \"mertic\"; expected si, thesis or metric, then QUANTITY=UNIT; try "
             "\"metric\"");
@@ -107,7 +107,7 @@ TEST_F(UnitsAskedOf, MessagesSayWhereAWrongWordStands) {
   EXPECT_TRUE(wrong({}).starts_with("SINEW_UNITS: found \"inch\"; expected")) << wrong({});
 }
 
-TEST_F(UnitsAskedOf, SettingsStandWhereTheFreedesktopRulesPutThem) {
+TEST_F(RequestedUnits, SettingsStandWhereTheFreedesktopRulesPutThem) {
   EXPECT_EQ(user_settings_path(), file());
   setenv("XDG_CONFIG_HOME", "not/absolute", 1);
   const char* before = std::getenv("HOME");

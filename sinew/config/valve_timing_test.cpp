@@ -47,7 +47,7 @@ TEST(ValveTiming, ReadsAWholeFile) {
   EXPECT_EQ(timing.closing[100], 100);
 }
 
-TEST(ValveTiming, SaysHowMuchOfACutFileIsThere) {
+TEST(ValveTiming, ReportsHowMuchOfACutFileExists) {
   auto rows = good_rows();
   rows.resize(40);
   EXPECT_EQ(message(rows),

@@ -27,7 +27,7 @@ std::string refusal(Act act) {
   return "nothing";
 }
 
-TEST(MachineFile, IsThePartOfAnExperimentThatItsKindSays) {
+TEST(MachineFile, IsThePartOfAnExperimentOfItsKind) {
   const MachineFile whole = load_machine_file(walk), machine = load_machine_file(robot);
   EXPECT_EQ(whole.kind, "experiment");
   EXPECT_FALSE(whole.experiment.plan.phases.empty());
@@ -53,7 +53,7 @@ TEST(MachineFile, ValuesComeInSiUnderTheKeysOfTheirOrigins) {
 
 // A number without its unit: the hint proposes exactly the value of the file, for every quantity of
 // a walk and of its robot.
-TEST(Load, TheHintOfAMissingUnitIsWhatTheFileSays) {
+TEST(Load, TheHintOfAMissingUnitIsThatOfTheFile) {
   int tried = 0;
   for (const config::Origin& origin : load(walk).origins) {
     if (origin.unit.empty() || origin.unit == "1") continue;  // these need no unit
@@ -105,7 +105,7 @@ TEST(Load, AMisspeltMeasureIsOneProblem) {
       << nobody;
 }
 
-TEST(Load, TellsOfNumbersWithoutASourceOutsideRobots) {
+TEST(Load, ReportsNumbersWithoutASourceOutsideRobots) {
   const Experiment e = load(walk);
   for (const config::Problem& p : e.unsourced)
     EXPECT_EQ(p.where.file.find("/robots/"), std::string::npos) << config::to_text(p);

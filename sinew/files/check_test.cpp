@@ -63,7 +63,7 @@ TEST(Check, ReturnsWhatIsWrongWithItsPlaceAndNeverThrows) {
   EXPECT_FALSE(check(log.path()).problems.empty());
 }
 
-TEST(Check, TellsWhatAnExperimentBreaksAndWhatNeverActs) {
+TEST(Check, ReportsWhatAnExperimentBreaksAndWhatNeverActs) {
   const std::string base = "format = \"sinew.experiment/2\"\nbase = \"" + root +
                            "experiments/walk-test-1.toml\"\ntitle = \"broken\"\n";
   const Written broken("broken.toml", base +

@@ -256,7 +256,7 @@ TEST(Keys, WordsMustAllBeThereInEitherCase) {
   EXPECT_THAT(paths(choice), ::testing::Contains("joint.<name>.velocity.estimator"));
 }
 
-TEST(Keys, AKeyThatFollowsFromAWordSaysFromWhich) {
+TEST(Keys, AKeyThatDependsOnAWordNamesIt) {
   const auto scale = find_keys({"sensor.hip_angle.real.scale"}, "robot");
   ASSERT_EQ(scale.size(), 5u);
   for (const Key& key : scale) {

@@ -11,7 +11,7 @@ namespace {
 
 const std::string leg = sinew::test::source_dir() + "/robots/leg/robot.toml";
 
-TEST(Values, AreThoseWhoseKeyIsAskedForOrBeginsSo) {
+TEST(Values, AreThoseWhoseKeyIsRequestedOrBeginsSo) {
   const Values all = values(leg), some = values(leg, {}, {"joint.knee"});
   EXPECT_GT(all.origins.size(), some.origins.size());
   ASSERT_FALSE(some.origins.empty());

@@ -107,7 +107,7 @@ TEST(Shutter, RandomTrainsDeliverWhatTheClockCounts) {
   }
 }
 
-TEST(Shutter, DoesNotCareHowFarAheadEdgesAreTold) {
+TEST(Shutter, DoesNotDependOnHowFarAheadEdgesAreGiven) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 100; ++i) {
     const Valve v =
@@ -276,7 +276,7 @@ double held_open(const Train& train, int opening, int closing, int from, int to,
   return total * us;
 }
 
-TEST(Shutter, JammedItFollowsNoEdgeAndFreedItGoesWhereItsCoilSays) {
+TEST(Shutter, JammedItFollowsNoEdgeAndFreedItFollowsItsCoil) {
   std::mt19937_64 random(17);
   for (int trial = 0; trial < 400; ++trial) {
     const int opening = 50 + static_cast<int>(random() % 900),
@@ -330,7 +330,7 @@ TEST(Shutter, FreedWhereItsCoilCannotLiftItStaysShut) {
   EXPECT_NEAR(shutter.next(), 4.4e-3, 1e-12);
 }
 
-TEST(Shutter, SaysWhenTooMuchWasToldAhead) {
+TEST(Shutter, ReportsWhenTooMuchWasGivenAhead) {
   Shutter shutter(valve(Valve::Profile::dead_time, 100, 100));
   for (int i = 0; i <= static_cast<int>(Shutter::capacity); ++i) {
     EXPECT_FALSE(shutter.overrun());

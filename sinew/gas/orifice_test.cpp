@@ -171,7 +171,7 @@ TEST(Flow, IsLinearInTheDifferenceNearEqualPressures) {
 
 // A flow reports which of the two it is: the straight line is below the law and meets it at its
 // end.
-TEST(Flow, SaysWhetherItIsInTheLinearPart) {
+TEST(Flow, ReportsWhetherItIsInTheLinearPart) {
   const Air air;
   for (const Flow& flow : both_laws) {
     Flow law = flow;

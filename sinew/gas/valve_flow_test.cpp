@@ -57,7 +57,7 @@ TEST(ValveFlow, WhatAnAreaEqualsAsAConductanceFlowsTheSameWhenChoked) {
   }
 }
 
-TEST(ValveFlow, TheLinearPartIsBelowTheLawItselfAndSaysSo) {
+TEST(ValveFlow, TheLinearPartIsBelowTheLawItselfAndReportsIt) {
   Draw draw;
   const Air air;
   int linear = 0;

@@ -122,7 +122,7 @@ std::string wrong(std::string_view text) {
   return "";
 }
 
-TEST(Request, SaysWhatIsToBeDone) {
+TEST(Request, ReportsWhatIsToBeDone) {
   const auto settings = gait::settings(in_air().plan);
   using Kind = Request::Kind;
   EXPECT_EQ(read_request(R"({"do":"pause"})", settings).kind, Kind::pause);
@@ -234,7 +234,7 @@ TEST(LiveView, OfAStandHasItsDrawing) {
   EXPECT_NE(text.find("\"scene\":null"), text.npos);
 }
 
-TEST(LiveView, WhatIsSetIsToldToEachPageOnce) {
+TEST(LiveView, SettingsAreReportedToEachPageOnce) {
   Stage stage(in_air());
   EXPECT_EQ(stage.show.handle(R"({"do":"set","key":"control.stiffness.knee","value":1.5})"), "");
   stage.run();
@@ -259,7 +259,7 @@ TEST(LiveView, WhatIsSetIsToldToEachPageOnce) {
   EXPECT_TRUE(last[0]["value"].is_null());
 }
 
-TEST(LiveView, WhatAPageAsksIsDoneAndKept) {
+TEST(LiveView, RequestsOfAPageAreExecutedAndKept) {
   Stage stage(in_air());
   EXPECT_EQ(stage.show.handle(R"({"do":"set","key":"control.stiffness.knee","value":1.5})"), "");
   EXPECT_EQ(stage.show.handle(R"({"do":"pause"})"), "");

@@ -53,7 +53,7 @@ class StudyPagesTest : public ::testing::Test {
 };
 
 // Rows come in any order while the file is written.
-TEST_F(StudyPagesTest, TellsEachRowOnceAsItComes) {
+TEST_F(StudyPagesTest, ReportsEachRowOnceAsItComes) {
   tune::Results results(file_, request_of(a_sweep()));
   results.add(row(4));
   StudyFeed feed(file_);
@@ -90,7 +90,7 @@ TEST_F(StudyPagesTest, AnswersWithWhatIsNew) {
 }
 
 // The open page reports that the file was removed.
-TEST_F(StudyPagesTest, SaysThatTheFileIsGone) {
+TEST_F(StudyPagesTest, ReportsAMissingFile) {
   if (!report::has_page()) GTEST_SKIP() << "built without pages";
   { tune::Results(file_, request_of(a_sweep())).add(row(0)); }
   StudyPages pages({file_}, {});
@@ -122,7 +122,7 @@ TEST_F(StudyPagesTest, RunsARowOnceAndShowsIt) {
 }
 
 // A row that cannot be run gives the reason instead of a page.
-TEST_F(StudyPagesTest, SaysWhyARowCannotRun) {
+TEST_F(StudyPagesTest, ReportsWhyARowCannotRun) {
   if (!report::has_page()) GTEST_SKIP() << "built without pages";
   tune::StudyRequest request = request_of(a_sweep());
   request.experiment = "gone.toml";

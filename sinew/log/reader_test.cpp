@@ -16,7 +16,7 @@ using namespace testing;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-TEST(Reader, SaysWhatIsWrongWithTheFile) {
+TEST(Reader, ReportsWhatIsWrongWithTheFile) {
   const Folder folder;
   const auto error = [&] { return error_of([&] { read(folder / "log.mcap"); }); };
   EXPECT_THAT(error(), HasSubstr("log.mcap: cannot open the log: No such file or directory; "));
@@ -30,7 +30,7 @@ TEST(Reader, SaysWhatIsWrongWithTheFile) {
   EXPECT_THAT(error_of([&] { read(folder.path()); }), HasSubstr("not a file"));
 }
 
-TEST(Reader, TellsWhatWasRun) {
+TEST(Reader, ReportsWhatWasRun) {
   const Folder folder;
   for (const bool finished : {false, true}) {
     write_log(folder / "log.mcap", random_table(1, 5), finished);

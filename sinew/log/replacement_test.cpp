@@ -95,7 +95,7 @@ TEST(Replacement, IsOneWritersAtATime) {
   EXPECT_EQ(bytes_of(folder / "a.csv"), "second");
 }
 
-TEST(Replacement, SaysWhatItCannotWrite) {
+TEST(Replacement, ReportsWhatItCannotWrite) {
   const Folder folder;
   EXPECT_THAT(error_of([&] { Replacement(folder / "no" / "a.csv"); }),
               AllOf(HasSubstr("no/a.csv: cannot be written: No such file or directory"),

@@ -164,14 +164,14 @@ TEST(Writer, RefusesTopicsItCannotHold) {
   EXPECT_THAT(create({{"/t", "\xFF", {f}}}), HasSubstr("not UTF-8"));
 }
 
-TEST(Writer, SaysWhereItCannotWrite) {
+TEST(Writer, ReportsWhereItCannotWrite) {
   const Folder folder;
   EXPECT_THAT(error_of([&] { Writer(folder / "no" / "log.mcap", kForce); }),
               AllOf(HasSubstr("no/log.mcap: cannot create the log: No such file or directory; "),
                     HasSubstr("choose a folder")));
 }
 
-TEST(Writer, SaysThatAFolderIsNotWritable) {
+TEST(Writer, ReportsAFolderThatIsNotWritable) {
   const Folder own;
   std::filesystem::permissions(
       own.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);

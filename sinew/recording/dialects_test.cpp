@@ -176,7 +176,7 @@ TEST(Dialects, SeparatorsAndMarksChangeNothing) { expect_the_same(separators());
 TEST(Dialects, HeadersChangeNothing) { expect_the_same(headers()); }
 TEST(Dialects, ClocksChangeNothing) { expect_the_same(clocks()); }
 
-TEST(Dialects, LettersOfLatin1AreReadWhenTheyAreSaid) {
+TEST(Dialects, LettersOfLatin1AreReadIfTheEncodingIsGiven) {
   const RawTable t = read(
       "Zeit [s];Temp [\xB0"
       "C];Fl\xE4"

@@ -84,7 +84,7 @@ TEST_F(MappingTest, LaterWordsStandInThePlaceOfEarlierOnes) {
   check_mapping(m, "m.toml");
 }
 
-TEST_F(MappingTest, SaysWhatIsWrong) {
+TEST_F(MappingTest, ReportsWhatIsWrong) {
   const std::string begin = "format = \"sinew.mapping/1\"\n";
   const auto wrong = [&](const std::string& text, const std::string& part) {
     EXPECT_NE(error_of(text).find(part), std::string::npos) << part << "\nin: " << error_of(text);

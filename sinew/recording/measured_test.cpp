@@ -97,7 +97,7 @@ TEST(Measured, RowsThatAreNotCompleteAreLeftOutOnRequestOnly) {
   EXPECT_TRUE(says(m.notes[0], "2 of 4 rows")) << m.notes[0];
 }
 
-TEST(Measured, WhatIsWrongIsTold) {
+TEST(Measured, WhatIsWrongIsReported) {
   struct Case {
     const char* text;
     const char* part;
@@ -129,7 +129,7 @@ TEST(Measured, WhatIsWrongIsTold) {
                    "units: found \"x\""));
 }
 
-TEST(Measured, TwoColumnsOfOneNameAreRefusedUnlessAnAtTellsThemApart) {
+TEST(Measured, TwoColumnsOfOneNameAreRefusedUnlessAnAtDistinguishesThem) {
   const std::string said = problem("pressure [kPa gauge],force [N],force [lbf]\n100,20,30\n");
   EXPECT_TRUE(says(said, "rig.csv:1:32: force: found a second column of this name")) << said;
   const std::string unread = "n [mm],n [s],pressure [kPa gauge],force [N]\n1,2,100,20\n";

@@ -186,7 +186,7 @@ TEST_F(ReadTest, ShiftJisAndGitLfsAreNamed) {
             std::string::npos);
 }
 
-TEST_F(ReadTest, ALogThatIsCompressedSaysWhatToDo) {
+TEST_F(ReadTest, ACompressedLogIsRefusedWithAHint) {
   log::Bytes out;
   out.raw(log::kMagic);
   log::put_header(out, "");

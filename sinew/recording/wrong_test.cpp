@@ -76,7 +76,7 @@ TEST(Wrong, WhatIsNoTextIsNamed) {
   });
 }
 
-TEST(Wrong, FilesThatAreNotThereAreToldBeforeReading) {
+TEST(Wrong, MissingFilesAreReportedBeforeReading) {
   const auto said = [](const std::string& path) {
     try {
       read_table({.path = path});
@@ -135,7 +135,7 @@ TEST(Wrong, NumbersThatCanBeTwoThingsAreNotGuessed) {
   });
 }
 
-TEST(Wrong, ClocksThatCannotBeAreTold) {
+TEST(Wrong, ImpossibleClocksAreReported) {
   expect_table_refused({
       {"when,F [N]\n11/03/2026 10:00:00,1\n11/03/2026 10:00:01,2\n",
        "lab.csv:2:1: when: found \"11/03/2026 10:00:00\", and no date whose day is above 12; "
@@ -179,7 +179,7 @@ TEST(Wrong, MeasurementsWhoseTimeRunsFarBackwardsAreRefused) {
       [](const Source& s) { read_measured(s, specs); });
 }
 
-TEST(Wrong, MeasurementsThatShareATimeAreSpreadAndTold) {
+TEST(Wrong, MeasurementsThatShareATimeAreSpreadAndReported) {
   const Measured m =
       parse_measured("time [s],pressure [barg],force [N]\n0,2,20\n1,2,21\n1,2,22\n2,2,23\n",
                      {.path = "lab.csv"}, specs);
@@ -189,7 +189,7 @@ TEST(Wrong, MeasurementsThatShareATimeAreSpreadAndTold) {
 }
 
 // Two recorders whose rows were joined in small blocks: rows keep their own values.
-TEST(Wrong, MeasurementsThatAreInterleavedAreSortedAndTold) {
+TEST(Wrong, MeasurementsThatAreInterleavedAreSortedAndReported) {
   std::string text = "time [s],pressure [barg],force [N]\n";
   for (int block = 0; block < 100; ++block)
     for (const int i : {2 * block + 1, 2 * block}) text += fmt::format("{},2,{}\n", i, 20 + i);
@@ -298,7 +298,7 @@ TEST(Wrong, AFileBeyondTheMemoryIsRefusedBeforeItIsRead) {
                       "the part that matters");
 }
 
-TEST(Wrong, RowsAndCellsAreToldByTheirPlace) {
+TEST(Wrong, RowsAndCellsAreReportedWithTheirPlace) {
   expect_table_refused({
       {"0,1\n1,2\n", "lab.csv:1:1: header: found numbers in the first line"},
       {"Messung 7\n0;1\n1;2\n", "lab.csv:2:1: header: found numbers without names above them"},
@@ -313,7 +313,7 @@ TEST(Wrong, RowsAndCellsAreToldByTheirPlace) {
   });
 }
 
-TEST(Wrong, UnitsAreToldInTheWordsOfTheFile) {
+TEST(Wrong, UnitsAreReportedInTheWordsOfTheFile) {
   const auto measured = [](const Source& s) { read_measured(s, specs); };
   expect_refused(
       {{"pressure [bar],force [N]\n2,20\n",

@@ -99,7 +99,7 @@ TEST(Kinematics, PrintedFormHasNoAnswerOutOfReach) {
   EXPECT_TRUE(std::isnan(inverse_as_printed(leg, {0, -16 * inch})[1]));
 }
 
-TEST(Kinematics, BeyondTheReachIsToldWithTheNearestPoint) {
+TEST(Kinematics, BeyondTheReachIsReportedWithTheNearestPoint) {
   const Inverse far = inverse(leg, {3 * inch, -16 * inch});
   EXPECT_EQ(far.status, Inverse::Status::too_far);
   EXPECT_NEAR(far.longest, 15.125 * inch, 1e-15);
@@ -247,7 +247,7 @@ TEST(GroundReaction, ExtendingHipIsPushedForward) {
   EXPECT_LT(torque(hip, 10, 20), 0);
 }
 
-TEST(GroundReaction, SaysWhereItCannotKnow) {
+TEST(GroundReaction, ReportsWhatIsUnknown) {
   EXPECT_TRUE(ground_reaction(leg, 1, 0, {1, 1}).singular);
   EXPECT_TRUE(ground_reaction(leg, 1, pi, {1, 1}).singular);
   EXPECT_TRUE(ground_reaction(leg, NAN, NAN, {1, 1}).singular);

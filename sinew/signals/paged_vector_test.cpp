@@ -87,7 +87,7 @@ TEST(PagedVector, AddsWithinWhatWasReserved) {
   for (std::int64_t i = 0; i < added; ++i) ASSERT_EQ(paged[static_cast<std::size_t>(i)], i);
 }
 
-TEST(PagedVector, SaysWhereItCannotPutItsPages) {
+TEST(PagedVector, ReportsWhereItCannotPutItsPages) {
   const char* before = std::getenv("TMPDIR");
   const std::string kept = before ? before : "";
   ::setenv("TMPDIR", "/nowhere/at/all", 1);

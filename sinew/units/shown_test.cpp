@@ -81,7 +81,7 @@ TEST(ShownUnits, OfUnitsThatDifferByAThousandTheFirstBelowAThousandIsShown) {
   EXPECT_EQ(name("s", 13.7, UnitSet::metric), "s");
 }
 
-TEST(ShownUnits, APressureKeepsTheReferenceThatIsAskedFor) {
+TEST(ShownUnits, APressureKeepsTheRequestedReference) {
   const ShownUnits thesis(UnitSet::thesis);
   EXPECT_EQ(thesis.text(62 * psi, "Pa abs"), "62 psi abs");
   EXPECT_EQ(thesis.text(62 * psi, "Pa gauge"), "62 psi gauge");

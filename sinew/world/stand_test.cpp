@@ -100,7 +100,7 @@ TEST(Stand, HangsTheSameWithoutHoseAndFittings) {
   }
 }
 
-TEST(Stand, BreaksLooseWhereTheLoadAsksForMoreThanTheBound) {
+TEST(Stand, BreaksLooseWhereTheLoadExceedsTheBound) {
   StandSetup s = trapped(60, 6);
   s.start.displacement = 0;
   const double length = hanging_length(s);
@@ -162,7 +162,7 @@ TEST(Stand, StepHalvingMovesNothing) {
 
 // The pieces between two nodes are as long as the accuracy allows: 3 s of trapped air in nodes of
 // 10 ms, against pieces a hundred times shorter than needed.
-TEST(Stand, IsAsExactAsItIsAsked) {
+TEST(Stand, IsAsExactAsRequested) {
   const auto lengths = [](double accuracy) {
     StandSetup s = trapped(60, 6);
     s.step = 1e-2;
@@ -339,7 +339,7 @@ TEST(Stand, ASealedCylinderIsAPolytropicSpring) {
   }
 }
 
-TEST(Stand, ACylinderOscillatesAsItsStiffnessSays) {
+TEST(Stand, ACylinderOscillatesAsItsStiffnessPredicts) {
   StandSetup s = with_cylinder();
   s.load = {.mass = 5 * units::pound_mass};
   const double ring = air::area(*s.cylinder, air::up);

@@ -81,7 +81,7 @@ class Cards : public ::testing::Test {
   Workspace w_;
 };
 
-TEST_F(Cards, WhatTheLogSaysOfTheValvesIsWhatTheCardGot) {
+TEST_F(Cards, ValvesInTheLogAreThoseThatTheCardReceived) {
   const Result result = run({});
   ASSERT_EQ(result.code, 0) << result.err;
   const signals::Table log = log::read(w_ / "run/log.mcap");
@@ -146,7 +146,7 @@ TEST_F(Cards, NoMemoryIsTakenInTheLoop) {
   EXPECT_FALSE(std::filesystem::exists(w_ / "heap"));
 }
 
-TEST_F(Cards, SaysAtTheStartHowLateTheComputerIs) {
+TEST_F(Cards, ReportsAtTheStartHowLateTheComputerIs) {
   const Result result = run({});
   EXPECT_THAT(result.err, HasSubstr("board: stand-in, at comedi:/dev/comedi0"));
   EXPECT_THAT(result.err, HasSubstr("timer real-time: 10000 wake-ups, worst 0 us"));

@@ -105,7 +105,7 @@ TEST(Application, IsConfiguredArmedRunAndShutDownOverItsSerialLine) {
 
 // The emulator runs its timers twelve times too fast and has neither its clocks nor its pins: no
 // more than this can be tested of that board.
-TEST(Application, OfTheStm32f405StartsSaysWhoItIsAndIsConfigured) {
+TEST(Application, OfTheStm32f405StartsIdentifiesItselfAndIsConfigured) {
   if (missing()) GTEST_SKIP() << what_is_missing;
   Machine machine("netduinoplus2", image("application-stm32f405"), "", 0);
   Host host(machine.line());
@@ -120,7 +120,7 @@ TEST(Application, OfTheStm32f405StartsSaysWhoItIsAndIsConfigured) {
   EXPECT_TRUE(host.wait([&] { return host.telemetries > before + 20; }));
 }
 
-TEST(Application, TheWatchdogBitesWhereNobodyFeedsItAndTheBoardSaysSo) {
+TEST(Application, TheWatchdogTripsWithoutAResetAndTheBoardReportsIt) {
   if (missing()) GTEST_SKIP() << what_is_missing;
   Machine machine("mps2-an386", image("application-mps2_an386"), "starve");
   Host host(machine.line());

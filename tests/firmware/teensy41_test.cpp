@@ -65,7 +65,7 @@ TEST(Teensy41, ImageBeginsWithHowItsFlashChipIsRead) {
   EXPECT_EQ(flash().word(chip + 0x80), 0x0A1804EBu) << "fast read on four wires";
 }
 
-TEST(Teensy41, ImageSaysAtItsPlaceWhereItIsAndHowItStarts) {
+TEST(Teensy41, ImageHasItsAddressAndStartAtItsPlace) {
   if (missing()) GTEST_SKIP() << what_is_missing;
   constexpr std::uint32_t table = chip + 0x1000;
   EXPECT_EQ(flash().word(table), 0x432000D1u);

@@ -71,7 +71,7 @@ TEST_F(Overwrite, AFullDiskLeavesTheOld) {
   }
 }
 
-TEST_F(Overwrite, AFaultLeavesTheOldRunAndSaysWhereTheNewOneIs) {
+TEST_F(Overwrite, AFaultLeavesTheOldRunAndReportsWhereTheNewOneIs) {
   const Writer writer = writers(w).front();
   const Results results = both(w, writer);
   const Ended fault = run(w, {"run", "experiments/walk-test-1.toml", "-o", writer.target, "--force",

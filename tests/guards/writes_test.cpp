@@ -30,7 +30,7 @@ bool failed(const Workspace& w, const Writer& writer, int n, Ended& end) {
 // One of them after the other in ./check long; here fewer and fewer.
 int next(int n, bool all) { return all || n < 4 ? n + 1 : n + n / 3; }
 
-TEST(Writes, ThatFailAreToldOfAndLoseNothing) {
+TEST(Writes, ThatFailAreReportedAndLoseNothing) {
   const Workspace w;
   ASSERT_NO_FATAL_FAILURE(prepare(w));
   const bool all = std::getenv("SINEW_GUARD_COUNT") != nullptr;

@@ -109,7 +109,7 @@ TEST(Serial, ATestStandRunsAsARobotDoes) {
   EXPECT_THAT(read_text(w / "ran/measured.csv"), HasSubstr("\n1.6,")) << "what the board measured";
 }
 
-TEST(Serial, ABoardWhoseWatchdogHasBittenRunsOnlyAfterSomebodyHasSaidSo) {
+TEST(Serial, ABoardWhoseWatchdogHasTrippedRunsOnlyAfterConfirmation) {
   const Workspace w;
   BoardOnPty board(loaded("kick"),
                    {.board = {'p', 't', 'y'}, .reset_by_watchdog = true, .active_low = true});
@@ -137,7 +137,7 @@ TEST(Serial, ABoardWithTheOtherLevelIsRefusedBeforeItIsArmed) {
   EXPECT_EQ(w.sinew(other).code, 0);
 }
 
-TEST(Serial, AStopThatIsAskedForVents) {
+TEST(Serial, ARequestedStopVents) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     BoardOnPty board(loaded("walk-test-1"));
     Running run(board);
@@ -226,7 +226,7 @@ TEST(Serial, AStopInABringUpVents) {
   EXPECT_THAT(read_text(w / "out"), HasSubstr("Stopped: the muscles were vented"));
 }
 
-TEST(Serial, ABringUpThatAsksEndsWithCtrlC) {
+TEST(Serial, AnInteractiveBringUpEndsWithCtrlC) {
   BoardOnPty board(loaded("walk-test-1"));
   const Workspace w;
   const AnswersThatCome none("");

@@ -27,7 +27,7 @@ Bytes all_of(const link::Telemetry& t) {
 
 // --- identity -----------------------------------------------------------------------------------
 
-TEST(Program, SaysWhoItIsAndThatItHasStarted) {
+TEST(Program, ReportsItsNameAndThatItHasStarted) {
   Bench b({.board = {'b', 'e', 'n', 'c', 'h'}, .firmware = {'1'}});
   b.send(link::Identify{});
   ASSERT_EQ(b.identities.size(), 1u);
@@ -223,7 +223,7 @@ TEST(Program, ACommandThatIsOverOrTooFarAheadIsRefused) {
   EXPECT_EQ(b.telemetry.link.refused, 4u);
 }
 
-TEST(Program, GainsDutiesAndEnablingHoldUntilACommandSaysOtherwise) {
+TEST(Program, GainsDutiesAndEnablingHoldUntilTheNextCommand) {
   Bench b;
   b.ready();
   Command command = control::rest_command(control::test_leg());
@@ -266,7 +266,7 @@ TEST(Program, ACommandThatEndsTheRunVentsItAndLeavesTheBoardIdle) {
 
 // --- faults -------------------------------------------------------------------------------------
 
-TEST(Program, AHostThatFallsSilentIsHeldVentedAndTold) {
+TEST(Program, ASilentHostIsHeldVentedAndReported) {
   Bench b;
   b.ready();
   b.send(command_of(control::rest_command(control::test_leg()), 0));

@@ -39,7 +39,7 @@ TEST(Setting, EachIsAnotherPlaceOfWhatIsDesired) {
     EXPECT_EQ(value_of(all[i], static_cast<const Desired&>(desired)), 1.0 + double(i));
 }
 
-TEST(Overrides, AValueStandsUntilItsReleaseWhateverThePlanSays) {
+TEST(Overrides, AValueHoldsUntilItsReleaseWhateverThePlanHas) {
   Overrides overrides(plan_for(leg()));
   const auto hip =
       static_cast<std::size_t>(find_setting(overrides.settings(), "control.gains.hip.angle"));

@@ -101,7 +101,7 @@ TEST(GaitController, SettlesWithItsJointsLeftAlone) {
   EXPECT_TRUE(controller.desired().joint[0].enabled);
 }
 
-TEST(GaitController, HoldsAtTheEndIfToldTo) {
+TEST(GaitController, HoldsAtTheEndIfRequested) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.finish = Plan::Finish::hold;

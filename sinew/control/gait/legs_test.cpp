@@ -149,7 +149,7 @@ TEST(Legs, APlanOfItsOwn) {
 }
 
 // A mistake in several legs is reported once.
-TEST(Legs, ContradictionsAreSaidOnce) {
+TEST(Legs, ContradictionsAreReportedOnce) {
   const robot::Robot robot = antiphase();
   Plan plan = test::walk(robot);
   plan.phases[0].until.measure = "joint.ankle.angle";

@@ -97,7 +97,7 @@ TEST(Unreachable, TheWalkIsInReach) {
   EXPECT_TRUE(unreachable(robot, test::walk(robot)).empty());
 }
 
-TEST(Unreachable, EveryStretchIsToldWithItsWorstPoint) {
+TEST(Unreachable, EveryRangeIsReportedWithItsWorstPoint) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   // 15.125 in is the reach: the propulsion is outside at both ends and inside between them.

@@ -86,7 +86,7 @@ TEST(AngleLaw, DeadBand) {
   }
 }
 
-TEST(AngleLaw, FlexionSaysWhichWayIsUp) {
+TEST(AngleLaw, FlexionDeterminesTheDirection) {
   const Gains g{.angle = 0.1f, .velocity = 0.001f};
   const Exact up = angle_law(g, +1, 2000, 1800, difference(1800, 1790, 100.0f));
   const Exact down = angle_law(g, -1, 2000, 1800, difference(1800, 1790, 100.0f));

@@ -78,7 +78,7 @@ TEST(WeightedAverage, OfTwoIsTheDifference) {
 }
 
 // White noise of variance s^2 leaves s^2 rate^2 12/(n (n^2 - 1)): 2 s^2 rate^2 for n = 2.
-TEST(WeightedAverage, ReducesNoiseAsLeastSquaresSays) {
+TEST(WeightedAverage, ReducesNoiseAsLeastSquaresPredicts) {
   std::mt19937 random(2);
   std::normal_distribution<double> noise(2000, 20);  // large against a count's 1/sqrt 12
   std::vector<std::int32_t> angles;

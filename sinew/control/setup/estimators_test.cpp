@@ -102,7 +102,7 @@ Simulated simulate(double damping, double unknown, int periods) {
   return out;
 }
 
-TEST(Kalman, FindsTheSpeedOfASimulatedJointAsTheRiccatiEquationSays) {
+TEST(Kalman, FindsTheSpeedOfASimulatedJointAsTheRiccatiEquationPredicts) {
   for (const double unknown : {2e3, 2e4}) {
     const double damping = 0.4;  // keeps the angle within the resolution of a float
     const Simulated s = simulate(damping, unknown, 200'000);

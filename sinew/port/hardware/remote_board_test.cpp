@@ -118,12 +118,12 @@ TEST(RemoteBoard, ABoardThatRunsAlreadyIsLeftAlone) {
               "the board is in a run already: is another program at this line?");
 }
 
-TEST(RemoteBoard, AnotherNumberOnTheLineIsSaidToBeSo) {
+TEST(RemoteBoard, AnotherNumberOnTheLineIsReported) {
   EXPECT_EQ(refusal({.protocol = link::protocol_version}, 2),
             "board 1 is not among the boards on the line");
 }
 
-TEST(RemoteBoard, ABoardThatOnlySaysWhoItIsAnswersNothing) {
+TEST(RemoteBoard, ABoardThatOnlyIdentifiesItselfRepliesNothing) {
   EXPECT_EQ(refusal({.protocol = link::protocol_version}),
             "board 1 does not reply: is it on this line, at this rate?");
 }

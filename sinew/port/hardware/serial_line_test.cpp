@@ -96,7 +96,7 @@ TEST(SerialLine, WhatCannotBeOpenedIsRefusedWithWhatToDo) {
 }
 
 // Bytes of a board at another rate arrive changed.
-TEST(SerialLine, AHostAtAnotherRateHearsNoFramesAndSaysSo) {
+TEST(SerialLine, AHostAtAnotherRateReceivesNoFramesAndReportsIt) {
   FarEnd far;
   SerialLine serial(far.device, 115'200);
   RemoteBoard board(serial.line(), 1, 100);
@@ -110,7 +110,7 @@ TEST(SerialLine, AHostAtAnotherRateHearsNoFramesAndSaysSo) {
   }
 }
 
-TEST(SerialLine, NobodyAtTheLineIsSaidToBeSo) {
+TEST(SerialLine, ALineWithoutABoardIsReported) {
   const FarEnd far;
   SerialLine serial(far.device, 115'200);
   RemoteBoard board(serial.line(), 1, 100);

@@ -136,7 +136,7 @@ TEST(Ports, CarryTheEdgesOfARun) {
 }
 
 // For any map and polarity the states of the valves can be recovered from the bytes.
-TEST(Ports, TellEveryValveAtEveryTime) {
+TEST(Ports, ReportEveryValveAtEveryTime) {
   std::mt19937 random(4);
   Leg l = leg();
   for (int trial = 0; trial < 20; ++trial) {

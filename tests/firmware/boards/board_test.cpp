@@ -97,13 +97,13 @@ TEST_F(Board, EachOutputIsItsPinAndNoOther) {
   EXPECT_EQ(current(), 0u);
 }
 
-TEST_F(Board, AHostIsToldWhichLevelGivesCurrent) {
+TEST_F(Board, TheLevelThatGivesCurrentIsReportedToTheHost) {
   started();
   hardware::drive(at_rest(0));
   EXPECT_EQ(hardware::active_low(), low_gives_current);
 }
 
-TEST_F(Board, EachInputIsTheConvertersThatTheTableSays) {
+TEST_F(Board, EachInputIsTheConvertersInTheTable) {
   started();
   for (std::uint32_t i = 0; i < wiring.inputs; ++i) {
     hardware::start_conversion({static_cast<std::uint8_t>(i)});
