@@ -8,13 +8,16 @@ namespace sinew::config {
 
 void Problems::add(int line, int column, std::string key, std::string found, std::string expected,
                    std::string try_this) {
+  add({{file_, line, column},
+       std::move(key),
+       std::move(found),
+       std::move(expected),
+       std::move(try_this)});
+}
+
+void Problems::add(Problem problem) {
   ++count_;
-  if (problems_.size() < most_)
-    problems_.push_back({{file_, line, column},
-                         std::move(key),
-                         std::move(found),
-                         std::move(expected),
-                         std::move(try_this)});
+  if (problems_.size() < most_) problems_.push_back(std::move(problem));
 }
 
 void Problems::finish() {

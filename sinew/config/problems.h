@@ -18,6 +18,11 @@ class Problems {
   // Adds a fault; `line` 0: it belongs to no line.
   void add(int line, int column, std::string key, std::string found, std::string expected,
            std::string try_this = "");
+  // Adds a fault of any file.
+  void add(Problem problem);
+
+  // Returns the number of faults.
+  std::size_t count() const { return count_; }
 
   // Throws Error if there are any faults.
   void finish();

@@ -13,8 +13,7 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
-#include "sinew/config/spelling.h"
-#include "sinew/recording/conversion.h"
+#include "sinew/recording/columns.h"
 #include "sinew/recording/mapping.h"
 #include "sinew/recording/recorded.h"
 #include "sinew/recording/stamp.h"
@@ -55,14 +54,16 @@ std::string joined(std::span<const std::string> parts) {
   return out;
 }
 
+std::string name_of_field(const signals::Topic& topic, std::size_t field) {
+  return topic.fields.size() > 1 ? topic.name + "." + topic.fields[field].name : topic.name;
+}
+
 bool has_unit(std::string_view unit, const signals::Topic& topic, std::size_t field) {
   const std::string& channel_unit = topic.fields[field].unit;
   if (unit == channel_unit) return true;
   if (unit.empty()) return channel_unit == "1" || channel_unit == "count";
-  const std::string wanted = quantity_unit(topic, field);
-  return std::ranges::any_of(config::spellings(unit), [&](const config::Spelling& meant) {
-    return !config::parse_quantity("1 " + meant.unit, wanted).mistake;
-  });
+  return std::holds_alternative<FileUnit>(
+      file_unit(std::string(unit), quantity_unit(topic, field), units::atmosphere));
 }
 
 }  // namespace
@@ -70,7 +71,7 @@ bool has_unit(std::string_view unit, const signals::Topic& topic, std::size_t fi
 std::string quantity_unit(const signals::Topic& topic, std::size_t field) {
   const std::string& unit = topic.fields[field].unit;
   if (unit != "Pa") return unit;
-  return topic.name.starts_with("/sensor/") ? "Pa gauge" : "Pa abs";
+  return is_gauge_channel(topic.name) ? "Pa gauge" : "Pa abs";
 }
 
 ChannelNames::ChannelNames(std::span<const signals::Topic> topics) : topics_(topics) {
@@ -134,8 +135,7 @@ std::optional<Target> ChannelNames::obvious(std::string_view name, std::string_v
 }
 
 std::string ChannelNames::name_of(Target target) const {
-  const signals::Topic& topic = topics_[target.topic];
-  return topic.fields.size() > 1 ? topic.name + "." + topic.fields[target.field].name : topic.name;
+  return name_of_field(topics_[target.topic], target.field);
 }
 
 namespace {
@@ -160,14 +160,6 @@ struct Matches {
 
 constexpr std::size_t most_names = 20;  // maximum number in a message
 
-std::string listed(const std::vector<std::string>& names) {
-  return config::listed(names, most_names);
-}
-
-std::string near(std::string_view word, const std::vector<std::string>& names) {
-  return config::closest_in_quotes(word, {names.begin(), names.end()});
-}
-
 // Returns a valid topic name for a column: "Kraft A" -> "/recorded/Kraft_A".
 std::string recorded_name(std::string_view name) {
   std::string out = "/recorded/";
@@ -182,22 +174,28 @@ class Matcher {
           std::span<const signals::Topic> topics, double atmosphere, bool at_end)
       : files_(files),
         mapping_(mapping),
-        topics_(topics),
-        names_(topics),
+        channels_(topics),
         atmosphere_(atmosphere),
-        at_end_(at_end) {
+        at_end_(at_end),
+        problems_(files.front().file) {
     out_.topics.assign(topics.begin(), topics.end());
     out_.unused.resize(files.size());
     out_.used = mapping;
     out_.used.columns.clear();
+    for (const ColumnMapping& c : mapping.columns) {
+      const auto channel = channels_.exact(c.channel);
+      if (channel) names_[channels_.name_of(*channel)] = c.name;
+      if (!c.unit.empty()) units_[c.name] = c.unit;
+    }
+    for (const Recorded& file : files) headers_.push_back(file.header());
   }
 
   Matches take() {
-    check_columns();
+    check_mapping();
     for (std::size_t f = 0; f < files_.size(); ++f)
       for (std::size_t c = 0; c < files_[f].columns.size(); ++c) column(f, c);
     check_clocks();
-    if (!problems_.empty()) throw config::Error(problems_);
+    problems_.finish();
     if (out_.columns.empty()) nothing_matched();
     return std::move(out_);
   }
@@ -205,62 +203,70 @@ class Matcher {
  private:
   void problem(std::string file, std::string key, std::string found, std::string expected,
                std::string try_this = "") {
-    problems_.push_back({{std::move(file), 0, 0},
-                         std::move(key),
-                         std::move(found),
-                         std::move(expected),
-                         std::move(try_this)});
+    problems_.add({{std::move(file), 0, 0},
+                   std::move(key),
+                   std::move(found),
+                   std::move(expected),
+                   std::move(try_this)});
   }
 
-  std::vector<std::string> all_columns() const {
-    std::vector<std::string> out;
-    for (const Recorded& file : files_)
-      for (const RecordedColumn& column : file.columns)
-        if (std::ranges::find(out, column.name) == out.end()) out.push_back(column.name);
+  ColumnResolver resolver(const Header& header) {
+    return {header, names_, units_, atmosphere_, problems_};
+  }
+
+  WantedColumn wanted(Target target) const {
+    const signals::Topic& topic = out_.topics[target.topic];
+    return {name_of(target), quantity_unit(topic, target.field), "a channel of this machine"};
+  }
+
+  // Returns the header of the only file, or else the columns of all files.
+  Header all_columns() const {
+    if (headers_.size() == 1) return headers_.front();
+    Header out{.file = "names"};
+    for (const Header& header : headers_)
+      out.columns.insert(out.columns.end(), header.columns.begin(), header.columns.end());
     return out;
   }
 
   // Requires that each row of the mapping names an existing column and channel.
-  void check_columns() {
-    const std::vector<std::string> all = all_columns();
+  void check_mapping() {
+    const Header all = all_columns();
     for (const ColumnMapping& c : mapping_.columns) {
-      const bool there = std::ranges::any_of(files_, [&](const Recorded& file) {
-        return file.find(c.name) || std::ranges::count(file.clocks, c.name, &Clock::column) > 0;
+      const auto channel = channels_.exact(c.channel);
+      const bool is_clock = std::ranges::any_of(files_, [&](const Recorded& file) {
+        return std::ranges::count(file.clocks, c.name, &Clock::column) > 0;
       });
-      if (!there)
-        problem(files_.size() == 1 ? files_.front().file : "names", "",
-                fmt::format("no column {} among {}", config::in_quotes(c.name), listed(all)),
-                "a column of the recording", near(c.name, all));
-      if (c.channel.empty() || c.channel.starts_with("/recorded/") || names_.exact(c.channel))
-        continue;
-      problem("names", "", config::in_quotes(c.channel),
-              fmt::format("a channel of this machine, such as {}", some_channels()),
-              near(c.channel, names_.all()));
+      const bool is_there = is_clock || std::ranges::any_of(headers_, [&](const Header& header) {
+                              return header.find(c.name).has_value();
+                            });
+      if (!is_there && channel)
+        resolver(all).refuse_missing(wanted(*channel));
+      else if (!is_there)
+        check_columns(all, c.unit.empty() ? "names" : "units", {{c.name, c.unit}}, problems_);
+      if (!c.channel.empty() && !c.channel.starts_with("/recorded/") && !channel)
+        problem(
+            "names", "", config::in_quotes(c.channel),
+            fmt::format("a channel of this machine, such as {}", some_channels()),
+            config::closest_in_quotes(c.channel, {channels_.all().begin(), channels_.all().end()}));
     }
   }
 
   // Lists only measured channels, those of joints, muscles and stands, if there are any.
   std::string some_channels() const {
     std::vector<std::string> some;
-    for (const std::string& name : names_.all())
+    for (const std::string& name : channels_.all())
       if (name.starts_with("/joint/") || name.starts_with("/muscle/") ||
           name.starts_with("/stand/"))
         some.push_back(name);
     if (some.size() > 8) some.resize(8);
-    return listed(some.empty() ? names_.all() : some);
-  }
-
-  const ColumnMapping* row_for(const Recorded& file, const RecordedColumn& column) const {
-    for (const ColumnMapping& c : mapping_.columns)
-      if (file.find(c.name) == &column) return &c;
-    return nullptr;
+    return config::listed(some.empty() ? channels_.all() : some, most_names);
   }
 
   void column(std::size_t f, std::size_t c) {
-    const Recorded& file = files_[f];
-    const RecordedColumn& column = file.columns[c];
-    const ColumnMapping* row = row_for(file, column);
-    ColumnMapping use = row ? *row : ColumnMapping{.name = column.name};
+    const RecordedColumn& column = files_[f].columns[c];
+    const auto row = std::ranges::find_if(
+        mapping_.columns, [&](const ColumnMapping& r) { return headers_[f].find(r.name) == c; });
+    ColumnMapping use = row == mapping_.columns.end() ? ColumnMapping{.name = column.name} : *row;
     const std::string unit = use.unit.empty() ? column.unit : use.unit;
     const std::optional<Target> target = target_of(use, unit);
     if (!target) {
@@ -268,9 +274,9 @@ class Matcher {
       return;
     }
     if (!is_free(*target, f, column)) return;
-    const std::size_t before = problems_.size();
-    Matched matched{f, c, *target, conversion(file, column, use, unit, *target)};
-    if (problems_.size() > before) return;
+    const std::size_t before = problems_.count();
+    Matched matched{f, c, *target, conversion(f, c, use, unit, *target)};
+    if (problems_.count() > before) return;
     out_.columns.push_back(matched);
     if (std::ranges::find(out_.used.columns, use.channel, &ColumnMapping::channel) ==
         out_.used.columns.end())
@@ -280,16 +286,17 @@ class Matcher {
   // Returns the column's channel and stores its name in `use`.
   std::optional<Target> target_of(ColumnMapping& use, const std::string& unit) {
     if (use.channel.starts_with("/recorded/")) return added(use.channel, unit);
-    std::optional<Target> found = names_.exact(use.channel.empty() ? use.name : use.channel);
+    std::optional<Target> found = channels_.exact(use.channel.empty() ? use.name : use.channel);
     if (!found && use.channel.empty()) {
-      found = names_.obvious(use.name, unit);
-      if (found) out_.guessed.push_back(fmt::format("{} is {}", use.name, names_.name_of(*found)));
+      found = channels_.obvious(use.name, unit);
+      if (found)
+        out_.guessed.push_back(fmt::format("{} is {}", use.name, channels_.name_of(*found)));
     }
     if (!found && use.channel.empty() && mapping_.keep_others) {
       use.channel = recorded_name(use.name);
       return added(use.channel, unit);
     }
-    if (found) use.channel = names_.name_of(*found);
+    if (found) use.channel = channels_.name_of(*found);
     return found;
   }
 
@@ -298,7 +305,7 @@ class Matcher {
     if (at != out_.topics.end()) return {static_cast<std::size_t>(at - out_.topics.begin()), 0};
     out_.topics.push_back({name,
                            "recorded elsewhere; no channel of this machine",
-                           {{"value", unit.empty() ? "1" : unit}}});
+                           {{"value", unit.empty() ? "1" : own_unit(unit).shown}}});
     return {out_.topics.size() - 1, 0};
   }
 
@@ -321,49 +328,39 @@ class Matcher {
     return true;
   }
 
-  std::string name_of(Target t) const {
-    const signals::Topic& topic = out_.topics[t.topic];
-    return topic.fields.size() > 1 ? topic.name + "." + topic.fields[t.field].name : topic.name;
-  }
+  std::string name_of(Target t) const { return name_of_field(out_.topics[t.topic], t.field); }
 
-  Conversion conversion(const Recorded& file, const RecordedColumn& column,
-                        const ColumnMapping& use, const std::string& unit, Target target) {
-    const std::string& wanted = out_.topics[target.topic].fields[target.field].unit;
-    const bool raw = out_.topics[target.topic].name.starts_with("/recorded/");
-    const bool bare = unit.empty() && (wanted == "1" || wanted == "count");
-    Conversion out;
-    if (unit != wanted && !raw && !bare) out = by_units(file, column, unit, target);
+  Conversion conversion(std::size_t f, std::size_t c, const ColumnMapping& use,
+                        const std::string& unit, Target target) {
+    Conversion out = by_units(f, c, unit, target);
     out.slope *= use.scale;
-    if (!use.offset.empty()) {
-      const config::Parsed added = parse_offset(
-          use.offset, quantity_unit(out_.topics[target.topic], target.field), atmosphere_);
-      if (added.mistake)
-        problem(file.file, fmt::format("{}.offset", use.name), added.mistake->found,
-                added.mistake->expected, added.mistake->try_this);
-      out.offset += added.si;
-    }
+    if (use.offset.empty()) return out;
+    const config::Parsed added = parse_offset(use.offset, wanted(target).unit, atmosphere_);
+    if (added.mistake)
+      problem(files_[f].file, fmt::format("{}.offset", use.name), added.mistake->found,
+              added.mistake->expected, added.mistake->try_this);
+    out.offset += added.si;
     return out;
   }
 
-  Conversion by_units(const Recorded& file, const RecordedColumn& column, const std::string& unit,
-                      Target target) {
-    const std::string wanted = quantity_unit(out_.topics[target.topic], target.field);
-    const auto read = file_unit(unit, wanted, atmosphere_);
-    if (const auto* found = std::get_if<FileUnit>(&read)) return found->conversion;
-    const std::string expected =
-        fmt::format("{}, for {}", config::describe_unit(wanted), name_of(target));
-    const std::string usual = config::usual_units(wanted).front();
-    if (unit.empty() && column.stated)
-      problem(file.file, column.name, "a stated number without a unit", expected,
+  Conversion by_units(std::size_t f, std::size_t c, const std::string& unit, Target target) {
+    const signals::Topic& topic = out_.topics[target.topic];
+    const std::string& channel_unit = topic.fields[target.field].unit;
+    const bool is_bare = unit.empty() && (channel_unit == "1" || channel_unit == "count");
+    if (topic.name.starts_with("/recorded/")) return own_unit(unit).conversion;
+    if (unit == channel_unit || is_bare) return {};
+    const RecordedColumn& column = files_[f].columns[c];
+    const WantedColumn quantity = wanted(target);
+    if (unit.empty() && column.stated) {
+      problem(files_[f].file, column.name, "a stated number without a unit",
+              config::describe_unit(quantity.unit),
               fmt::format("a value such as \"{}={} {}\"", column.name,
-                          config::format_number(column.values.front()), usual));
-    else if (unit.empty())
-      problem(file.file, column.name, "a column without a unit", expected,
-              fmt::format("units.{}={}", column.name, usual));
-    else
-      problem(file.file, column.name, fmt::format("the unit {}", config::in_quotes(unit)), expected,
-              std::get<std::string>(read));
-    return {};
+                          config::format_number(column.values.front()),
+                          config::usual_units(quantity.unit).front()));
+      return {};
+    }
+    const auto found = resolver(headers_[f]).convert(c, quantity);
+    return found ? found->conversion : Conversion{};
   }
 
   // Requires that all fields of a topic have the same clock.
@@ -382,21 +379,22 @@ class Matcher {
   }
 
   [[noreturn]] void nothing_matched() const {
-    config::fail({files_.front().file, 0, 0}, "",
+    config::fail({files_.front().file, headers_.front().line, 1}, "",
                  fmt::format("no column that is a channel of this machine by its name: {}",
-                             listed(all_columns())),
+                             all_columns().all_names()),
                  fmt::format("columns for channels such as {}", some_channels()),
                  "names.CHANNEL=COLUMN for each, or a mapping's file");
   }
 
   const std::vector<Recorded>& files_;
   const Mapping& mapping_;
-  std::span<const signals::Topic> topics_;
-  ChannelNames names_;
+  ChannelNames channels_;
   double atmosphere_;
   bool at_end_;
+  std::vector<Header> headers_;  // one per file
+  Names names_, units_;          // channel -> column, and column -> unit
   Matches out_;
-  std::vector<config::Problem> problems_;
+  config::Problems problems_;
 };
 
 // Matches columns to channels. Throws config::Error with all faults.

@@ -111,6 +111,36 @@ TEST_F(AssembleTest, UnitsAreReadAsOthersWriteThem) {
   EXPECT_NEAR(s.columns[0][1], 1e5 + 68947.57, 0.1);
 }
 
+TEST_F(AssembleTest, AGivenUnitReplacesThatOfTheHeader) {
+  const std::string file = put("a.csv", "time [s],p [mbar(g)]\n0,500\n1,600\n");
+  for (const auto& [unit, pascals] : {std::pair{"", 5e4}, {"mbar gauge", 5e4}, {"kPa(g)", 5e5}}) {
+    Mapping m;
+    map_channel(m, "/muscle/flexor/pressure", "p");
+    if (*unit) map_unit(m, "p", unit);
+    const AssembledRecording a = take({file}, m, {.atmosphere = 1e5});
+    EXPECT_NEAR(series(a, "/muscle/flexor/pressure").columns[0][0], 1e5 + pascals, 1e-6) << unit;
+  }
+}
+
+TEST_F(AssembleTest, AColumnIsCalledByItsNameByItsHeadingOrByTheEndOfItsName) {
+  const std::string file = put("a.csv", "time [s],log.p [mbar(g)]\n0,500\n1,600\n");
+  for (const char* name : {"log.p", "log.p [mbar(g)]", "p"}) {
+    Mapping m;
+    map_channel(m, "/muscle/flexor/pressure", name);
+    const AssembledRecording a = take({file}, m, {.atmosphere = 1e5});
+    EXPECT_NEAR(series(a, "/muscle/flexor/pressure").columns[0][0], 1.5e5, 1e-6);
+  }
+}
+
+TEST_F(AssembleTest, AKeptColumnIsInANearUnitOfSinew) {
+  Mapping m;
+  m.keep_others = true;
+  const AssembledRecording a =
+      take({put("a.csv", "time [s],p [mbar(g)],angle [rad]\n0,500,1\n1,600,1\n")}, m);
+  EXPECT_EQ(series(a, "/recorded/p").topic.fields[0].unit, "bar gauge");
+  EXPECT_DOUBLE_EQ(series(a, "/recorded/p").columns[0][1], 0.6);
+}
+
 TEST_F(AssembleTest, AChannelsOwnNameAndUnitKeepEveryBit) {
   const AssembledRecording a = take({put("a.csv",
                                          "time [s],/joint/elbow/angle [rad],/foot/position.x [m],"
@@ -367,12 +397,13 @@ TEST_F(AssembleTest, ReportsWhatIsWrongAndWhatToDo) {
     for (const std::string& part : parts)
       EXPECT_NE(text.find(part), std::string::npos) << part << "\nin: " << text;
   };
-  wrong(angle_is("Winkl"), {"no column \"Winkl\"", "Winkel, F, p", "try \"Winkel\""});
+  wrong(angle_is("Winkl"),
+        {"no column \"Winkl\"", "Winkel, F, p", "try names./joint/elbow/angle=\"Winkel\""});
   Mapping channel;
   map_channel(channel, "/joint/elbwo/angle", "Winkel");
   wrong(channel, {"/joint/elbwo/angle", "try \"/joint/elbow/angle\""});
   wrong(angle_is("F"), {"the unit \"N\"", "rad", "/joint/elbow/angle"});
-  wrong(angle_is("p"), {"a column without a unit", "units.p="});
+  wrong(angle_is("p"), {"the column \"p\" without a unit", "units.p="});
   wrong(angle_is("Winkel", "dge"), {"the unit \"dge\"", "deg"});
   Mapping offset = angle_is("Winkel");
   map_offset(offset, "Winkel", "3 N");

@@ -25,105 +25,6 @@ namespace {
 
 using config::trimmed;
 
-// Splits a header at the last `mark` into name and unit; returns false if no unit follows it.
-bool split_at(std::string_view mark, std::string_view text, Heading& h) {
-  const std::size_t at = text.rfind(mark);
-  if (at == text.npos || at == 0) return false;
-  const std::string_view name = trimmed(text.substr(0, at));
-  const std::string_view unit = without_brackets(text.substr(at + mark.size()));
-  // A whole unit such as "m/s" as a column's name is not split.
-  if (name.empty() || config::spellings(unit).empty()) return false;
-  if (mark == "/" && !config::spellings(name).empty() && !config::spellings(text).empty())
-    return false;
-  h.name = name;
-  set_unit(h, unit);
-  return true;
-}
-
-// Splits "force (N)"; returns false if the text in the brackets is not a unit.
-bool split_at_brackets(std::string_view text, char open, char close, Heading& h) {
-  if (text.empty() || text.back() != close) return false;
-  // Nested brackets, "p [MPa(g)]" or "p (MPa(g))": finds the one that matches the last.
-  std::size_t at = text.size();
-  int depth = 0;
-  while (at-- > 0) {
-    depth += text[at] == close ? 1 : text[at] == open ? -1 : 0;
-    if (depth == 0) break;
-  }
-  if (depth != 0 || at > text.size()) return false;
-  const std::string_view unit = trimmed(text.substr(at + 1, text.size() - at - 2));
-  if (open == '(' && (at == 0 || config::spellings(unit).empty())) return false;
-  h.name = trimmed(text.substr(0, at));
-  set_unit(h, unit);
-  return true;
-}
-
-// Adds the reference to a pressure unit if the name contains it: "Druck ABS. (MPa)".
-void add_reference(Heading& h) {
-  if (h.unit.empty() || !config::is_unit(h.unit + " gauge")) return;
-  constexpr std::pair<std::string_view, const char*> words[] = {
-      {"abs", " abs"},     {"abs.", " abs"},  {"absolute", " abs"}, {"absolut", " abs"},
-      {"gauge", " gauge"}, {"rel", " gauge"}, {"rel.", " gauge"},   {"relative", " gauge"}};
-  const std::string name = units::lower(h.name);
-  const std::string_view last = std::string_view(name).substr(name.find_last_of(" _,(") + 1);
-  for (const auto& [word, reference] : words) {
-    if (last != word || last == name) continue;
-    h.unit += reference;
-    h.file_unit = h.unit;
-  }
-}
-
-}  // namespace
-
-std::string_view without_brackets(std::string_view text) {
-  text = trimmed(text);
-  const bool square = text.size() > 2 && text.front() == '[' && text.back() == ']';
-  const bool round = text.size() > 2 && text.front() == '(' && text.back() == ')';
-  return square || round ? trimmed(text.substr(1, text.size() - 2)) : text;
-}
-
-bool is_unit_cell(std::string_view text) {
-  const std::string_view unit = without_brackets(text);
-  return unit.empty() || !config::spellings(unit).empty();
-}
-
-void set_unit(Heading& heading, std::string_view unit) {
-  heading.file_unit = unit;
-  heading.unit = unit;
-  heading.factor = 1;
-  const std::vector<config::Spelling> all = config::spellings(unit);
-  if (all.empty()) return;
-  heading.unit = all.front().unit;
-  heading.factor = all.front().factor;
-}
-
-Heading heading_of(const Cell& cell) {
-  Heading h;
-  h.column = cell.column;
-  h.written = config::without_controls(cell.text);
-  for (char& c : h.written)
-    if (c == '\n' || c == '\r') c = ' ';  // a cell of two lines
-  const std::string whole = h.written;
-  std::string_view text = whole;
-  const std::size_t at = text.find('@');
-  if (at != text.npos) {
-    const std::string_view condition = text.substr(at + 1);
-    const std::size_t equals = condition.find('=');
-    h.at_name = trimmed(condition.substr(0, equals));
-    if (equals != condition.npos) h.at_value = trimmed(condition.substr(equals + 1));
-    text = trimmed(text.substr(0, at));
-  }
-  // The slash is tried before round brackets: "p / bar(g)".
-  const bool split = split_at_brackets(text, '[', ']', h) || split_at(" in ", text, h) ||
-                     split_at("/", text, h) || split_at_brackets(text, '(', ')', h) ||
-                     split_at(", ", text, h);
-  if (!split) h.name = text;
-  add_reference(h);
-  return h;
-}
-
-namespace {
-
 // --- sample of a table's first rows, with the most plausible separator ---
 
 // Clock and units in the header of a LabVIEW table.
@@ -395,7 +296,7 @@ class HeaderReader {
     std::size_t top = first;
     if (!source_.columns.empty()) {
       for (const std::string& column : source_.columns)
-        out.headings.push_back(heading_of({column, 1}));
+        out.header.columns.push_back(heading_of({column, 1}));
       begin_body(first < sample_.rows.size() ? first : 0, out);
       top = first < sample_.rows.size() ? first : 0;
     } else {
@@ -432,7 +333,7 @@ class HeaderReader {
   }
 
   void use(const Row& names, const Row* units, Dialect& out) const {
-    out.header_line = names.line;
+    out.header.line = names.line;
     std::deque<std::string> texts;
     std::vector<Cell> cells = names.cells;
     if (sample_.separator == ' ' && cells.size() > sample_.width)
@@ -440,21 +341,21 @@ class HeaderReader {
     while (cells.size() > 1 && cells.back().text.empty()) cells.pop_back();
     // LabVIEW names a column of remarks, which most of its rows lack.
     out.has_remarks = cells.size() > 1 && cells.back().text == "Comment";
-    for (const Cell& cell : cells) out.headings.push_back(heading_of(cell));
+    for (const Cell& cell : cells) out.header.columns.push_back(heading_of(cell));
     use_labview(out);
     if (!units) return;
     for (std::size_t i = 0; i < std::min(cells.size(), units->cells.size()); ++i)
       if (const std::string_view unit = without_brackets(units->cells[i].text); !unit.empty())
-        set_unit(out.headings[i], unit);
+        out.header.columns[i].unit = unit;
   }
 
   // Uses the units and the clock in LabVIEW's header.
   void use_labview(Dialect& out) const {
     const LabViewHeader& header = sample_.labview;
-    for (std::size_t i = 0; i < header.units.size() && i + 1 < out.headings.size(); ++i)
-      if (out.headings[i + 1].unit.empty() && !without_brackets(header.units[i]).empty() &&
+    for (std::size_t i = 0; i < header.units.size() && i + 1 < out.header.columns.size(); ++i)
+      if (out.header.columns[i + 1].unit.empty() && !without_brackets(header.units[i]).empty() &&
           is_unit_cell(header.units[i]))
-        set_unit(out.headings[i + 1], without_brackets(header.units[i]));
+        out.header.columns[i + 1].unit = without_brackets(header.units[i]);
     if (header.has_x || !(header.step > 0)) return;
     out.period = header.step;
     out.first = header.first;
@@ -550,10 +451,11 @@ Dialect dialect_of(std::string_view text, const Source& source) {
   if (sample.rows.empty())
     config::fail({source.path, 1, 1}, "rows", "none", "a header and rows of numbers");
   Dialect out;
+  out.header.file = source.path;
   out.separator = sample.separator;
   HeaderReader(sample, source).read(out);
   out.kinds = sample.kinds;
-  out.kinds.resize(out.headings.size(), ColumnKind::words);
+  out.kinds.resize(out.header.columns.size(), ColumnKind::words);
   out.numbers.decimal = decimal_of(sample, out, source);
   if (!source.thousands.empty()) out.numbers.thousands = source.thousands[0];
   return out;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/recording/columns.h"
 #include "sinew/recording/raw_table.h"
 
 namespace sinew::recording::dialects_test {
@@ -158,12 +159,12 @@ void expect_the_same(const std::vector<Case>& cases) {
       EXPECT_NEAR(t.time[2] - t.time[0], 0.02, 1e-6);
       ASSERT_EQ(t.columns.size(), 2u);
       EXPECT_EQ(t.columns[0].name, "force");
-      EXPECT_EQ(t.columns[0].unit, "N");
+      EXPECT_EQ(own_unit(t.columns[0].unit).shown, "N");
       EXPECT_EQ(t.columns[0].values[0], 12.5);
       EXPECT_EQ(t.columns[0].values[1], 1300.25);
       EXPECT_EQ(t.columns[0].values[2], -2);
       EXPECT_EQ(t.columns[1].name, "pressure");
-      EXPECT_EQ(t.columns[1].unit, "bar gauge");
+      EXPECT_EQ(own_unit(t.columns[1].unit).shown, "bar gauge");
       EXPECT_EQ(t.columns[1].values[2], 3.5);
     } catch (const config::Error& e) {
       ADD_FAILURE() << e.what();
@@ -183,17 +184,18 @@ TEST(Dialects, LettersOfLatin1AreReadIfTheEncodingIsGiven) {
       "che [mm\xB2]\n0,5;20,5;3,1\n",
       {.encoding = "latin1"});
   ASSERT_EQ(t.columns.size(), 2u);
-  EXPECT_EQ(t.columns[0].unit, "degC");
+  EXPECT_EQ(own_unit(t.columns[0].unit).shown, "degC");
   EXPECT_EQ(t.columns[1].name, "Fläche");
-  EXPECT_EQ(t.columns[1].unit, "mm2");
+  EXPECT_EQ(own_unit(t.columns[1].unit).shown, "mm2");
 }
 
 TEST(Dialects, AUnitThatSinewLacksIsConverted) {
   const RawTable t = read("time [s],p [mbar(g)],F [kp]\n0,500,2\n1,600,3\n");
-  EXPECT_EQ(t.columns[0].unit, "bar gauge");
-  EXPECT_DOUBLE_EQ(t.columns[0].values[0], 0.5);
-  EXPECT_EQ(t.columns[1].unit, "N");
-  EXPECT_DOUBLE_EQ(t.columns[1].values[1], 3 * 9.80665);
+  const FileUnit pressure = own_unit(t.columns[0].unit), force = own_unit(t.columns[1].unit);
+  EXPECT_EQ(pressure.shown, "bar gauge");
+  EXPECT_DOUBLE_EQ(pressure.conversion(t.columns[0].values[0]), 0.5);
+  EXPECT_EQ(force.shown, "N");
+  EXPECT_DOUBLE_EQ(force.conversion(t.columns[1].values[1]), 3 * 9.80665);
 }
 
 TEST(Dialects, MissingValuesAreCountedAndKeepTheirRows) {

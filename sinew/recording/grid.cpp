@@ -33,31 +33,6 @@ void check_settings(const Source& source) {
                  "two different signs", "one of them alone");
 }
 
-std::optional<std::size_t> Grid::column_called(std::string_view name) const {
-  for (std::size_t i = 0; i < headings().size(); ++i)
-    if (headings()[i].is_called(name)) return i;
-  return std::nullopt;
-}
-
-std::vector<std::string_view> Grid::names() const {
-  std::vector<std::string_view> out;
-  for (const Heading& h : headings()) {
-    out.push_back(h.name);
-    if (!h.at_name.empty()) out.push_back(h.at_name);
-  }
-  return out;
-}
-
-std::string Grid::all_names() const {
-  std::string out;
-  for (const std::string_view name : names()) {
-    if (out.find(name) != out.npos) continue;
-    if (!out.empty()) out += ", ";
-    out += name;
-  }
-  return out;
-}
-
 std::size_t Grid::rows_about() const {
   constexpr std::size_t some = 256 * 1024;
   const std::string_view body = std::string_view(*text).substr(dialect.body);

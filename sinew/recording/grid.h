@@ -25,15 +25,9 @@ struct Grid {
   std::atomic<std::int64_t>* read = nullptr;  // the source's byte counter
   bool drop_incomplete = false;               // the source's
 
-  // Returns the columns, in the order of the file.
-  const std::vector<Heading>& headings() const { return dialect.headings; }
-  int header_line() const { return dialect.header_line; }  // 0: not in the file
-
-  // Returns the first column with that name or header, if it exists.
-  std::optional<std::size_t> column_called(std::string_view name) const;
-  // Return the names of the columns and of the conditions after an @, as a list and as a text.
-  std::vector<std::string_view> names() const;
-  std::string all_names() const;
+  // Return the header, and its columns in the order of the file.
+  const Header& header() const { return dialect.header; }
+  const std::vector<Heading>& headings() const { return dialect.header.columns; }
 
   // Returns an estimate of the number of rows, for reserving memory.
   std::size_t rows_about() const;

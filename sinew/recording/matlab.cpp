@@ -243,9 +243,9 @@ class Columns {
     const std::string name = readable_name(m.name, in_);
     const std::size_t count = down ? m.columns : m.rows;
     for (std::size_t k = 0; k < count; ++k) {
-      RecordedColumn column{.name = count == 1 ? name : fmt::format("{}({})", name, k + 1),
-                            .clock = down ? *down : *across,
-                            .values = signals::Column(pages_)};
+      RecordedColumn column{{.name = count == 1 ? name : fmt::format("{}({})", name, k + 1)},
+                            down ? *down : *across,
+                            signals::Column(pages_)};
       for (std::size_t i = 0; i < (down ? m.rows : m.columns); ++i)
         column.values.push_back(down ? m.values[k * m.rows + i] : m.values[i * m.rows + k]);
       out_.columns.push_back(std::move(column));

@@ -119,8 +119,8 @@ class MatlabTest : public ::testing::Test {
 };
 
 std::vector<double> values(const Recorded& of, const std::string& name) {
-  const RecordedColumn* column = of.find(name);
-  return column ? column->values.in_memory() : std::vector<double>{};
+  const auto column = of.header().find(name);
+  return column ? of.columns[*column].values.in_memory() : std::vector<double>{};
 }
 
 TEST_F(MatlabTest, VectorsAndMatricesBesideATime) {
@@ -153,7 +153,7 @@ TEST_F(MatlabTest, StructuresAsSimulinkLogsThem) {
   EXPECT_EQ(values(r, "ts"), (std::vector<double>{7, 8, 9}));
   EXPECT_EQ(values(r, "s.force"), (std::vector<double>{5, 6}));
   EXPECT_EQ(values(r, "force"), (std::vector<double>{5, 6}));
-  EXPECT_EQ(r.clocks[r.find("ts")->clock].time_ns.size(), 3u);
+  EXPECT_EQ(r.clocks[r.columns[*r.header().find("ts")].clock].time_ns.size(), 3u);
 }
 
 // A table as MATLAB saves it: an object whose numbers are elsewhere in the file.

@@ -21,7 +21,7 @@
 #include "sinew/config/problems.h"
 #include "sinew/config/quantity.h"
 #include "sinew/recording/clock.h"
-#include "sinew/recording/conversion.h"
+#include "sinew/recording/columns.h"
 #include "sinew/recording/grid.h"
 #include "sinew/recording/number.h"
 #include "sinew/recording/parts.h"
@@ -47,11 +47,12 @@ struct FoundColumn {
 };
 
 // Finds the wanted columns of a grid. Columns that are not found are added to `problems`.
-class ColumnFinder {
+class WantedColumns {
  public:
-  // Keeps references to all three, which must outlive this object.
-  ColumnFinder(const Grid& grid, const Source& source, config::Problems& problems)
-      : grid_(grid), source_(source), problems_(problems) {}
+  // Keeps references to all four, which must outlive this object.
+  WantedColumns(const Grid& grid, const Source& source, ColumnResolver& columns,
+                config::Problems& problems)
+      : grid_(grid), source_(source), columns_(columns), problems_(problems) {}
 
   // Returns the columns found; an optional column that is missing is left out.
   std::vector<FoundColumn> find(std::span<const ColumnSpec> specs);
@@ -60,28 +61,18 @@ class ColumnFinder {
   bool find_stated(const ColumnSpec& w, std::vector<FoundColumn>& out);
   void add_offset(const ColumnSpec& w, FoundColumn& f);
   void refuse_ignored_column(const ColumnSpec& w, const std::vector<FoundColumn>& found);
+  void refuse_both(const ColumnSpec& w, const std::string& found);
   void find_one(const ColumnSpec& w, std::vector<FoundColumn>& out);
-  std::string near_name(const std::string& name) const;
-  void refuse_duplicate(const std::string& name, std::size_t first);
   void check_names(std::span<const ColumnSpec> specs);
-  void convert(const Heading& h, const ColumnSpec& w, FoundColumn& f);
-  void refuse_unit(const Heading& h, const ColumnSpec& w, const std::string& unit,
-                   const std::string& try_this);
+  void convert(const ColumnSpec& w, FoundColumn& f);
 
   const Grid& grid_;
   const Source& source_;
+  ColumnResolver& columns_;
   config::Problems& problems_;
 };
 
-// Returns the unit in the header. Sinew's own channels have only "Pa": a pressure is absolute
-// unless its name contains gauge.
-std::string unit_in(const Heading& h) {
-  const bool channel = h.name.starts_with('/') && h.name.ends_with("pressure");
-  if (!channel || h.file_unit != "Pa") return h.file_unit;
-  return h.name.ends_with("/gauge_pressure") ? "Pa gauge" : "Pa abs";
-}
-
-std::vector<FoundColumn> ColumnFinder::find(std::span<const ColumnSpec> specs) {
+std::vector<FoundColumn> WantedColumns::find(std::span<const ColumnSpec> specs) {
   std::vector<FoundColumn> out;
   const auto is_found = [&](std::string_view name) {
     return std::ranges::any_of(out, [&](const FoundColumn& f) { return f.spec->name == name; });
@@ -96,117 +87,96 @@ std::vector<FoundColumn> ColumnFinder::find(std::span<const ColumnSpec> specs) {
   return out;
 }
 
-// Refuses a column that would be ignored because a value is stated for the column it replaces.
-void ColumnFinder::refuse_ignored_column(const ColumnSpec& w,
-                                         const std::vector<FoundColumn>& found) {
-  const auto at =
-      std::ranges::find_if(found, [&](const FoundColumn& f) { return f.spec->name == w.replaces; });
-  if (at->index < grid_.headings().size() || !grid_.column_called(w.name)) return;
-  problems_.add(grid_.header_line(), 1, std::string(w.name),
-                fmt::format("a column, and a value of {} for the whole file", w.replaces),
-                "one of the two");
+void WantedColumns::refuse_both(const ColumnSpec& w, const std::string& found) {
+  problems_.add(grid_.header().line, 1, std::string(w.name), found, "one of the two");
 }
 
-void ColumnFinder::find_one(const ColumnSpec& w, std::vector<FoundColumn>& out) {
-  const auto mapped = source_.names.find(std::string(w.name));
-  const bool given = mapped != source_.names.end();
-  const std::string name = given ? mapped->second : std::string(w.name);
-  const bool header_rate = grid_.dialect.period > 0 && (!given || name == grid_.headings()[0].name);
+// Refuses a column that would be ignored because a value is stated for the column it replaces.
+void WantedColumns::refuse_ignored_column(const ColumnSpec& w,
+                                          const std::vector<FoundColumn>& found) {
+  const auto at =
+      std::ranges::find_if(found, [&](const FoundColumn& f) { return f.spec->name == w.replaces; });
+  if (at->index == grid_.headings().size() && grid_.header().called(w.name))
+    refuse_both(w, fmt::format("a column, and a value of {} for the whole file", w.replaces));
+}
+
+void WantedColumns::find_one(const ColumnSpec& w, std::vector<FoundColumn>& out) {
+  const std::vector<Heading>& headings = grid_.headings();
+  const bool given = source_.names.contains(std::string(w.name));
+  const std::string name = columns_.name_of(w.name);
+  const bool header_rate = grid_.dialect.period > 0 && (!given || name == headings[0].name);
   if (find_stated(w, out)) return;
   if (w.name == "time" && (!source_.rate.empty() || header_rate)) {
-    out.push_back({.spec = &w, .index = grid_.headings().size()});  // no column has its values
+    out.push_back({.spec = &w, .index = headings.size()});  // no column has its values
     return;
   }
-  for (std::size_t i = 0; i < grid_.headings().size(); ++i) {
-    const Heading& h = grid_.headings()[i];
-    const bool at = h.at_name == name;
-    if (!at && !h.is_called(name)) continue;
-    FoundColumn f{.spec = &w, .index = i, .is_at = at};
-    if (!at) convert(h, w, f);
+  if (const auto column = columns_.find(w.name)) {
+    FoundColumn f{.spec = &w, .index = *column};
+    convert(w, f);
     add_offset(w, f);
-    refuse_duplicate(h.name, i);
+    columns_.refuse_repeated(*column);
     out.push_back(std::move(f));
     return;
   }
-  if (w.optional && !given) return;
-  const std::string near = near_name(name);
-  problems_.add(grid_.header_line(), 1, std::string(w.name),
-                fmt::format("no column {} among {}", config::in_quotes(name), grid_.all_names()),
-                fmt::format("`{} [{}]`, {}", w.name, w.unit, w.doc),
-                near.empty() ? fmt::format("names.{}=NAME with the file's name for it", w.name)
-                             : fmt::format("names.{}={}", w.name, near));
+  const auto at = std::ranges::find(headings, name, &Heading::at_name);
+  if (at != headings.end()) {
+    FoundColumn f{&w, static_cast<std::size_t>(at - headings.begin()), true};
+    add_offset(w, f);
+    out.push_back(std::move(f));
+  } else if (!w.optional || given) {
+    columns_.refuse_missing({std::string(w.name), std::string(w.unit), std::string(w.doc)});
+  }
 }
 
 // Finds a value that is stated for the whole file; returns false if it is missing.
-bool ColumnFinder::find_stated(const ColumnSpec& w, std::vector<FoundColumn>& out) {
+bool WantedColumns::find_stated(const ColumnSpec& w, std::vector<FoundColumn>& out) {
+  const std::string setting = fmt::format("values.{}", w.name);
   // The value with the longest matching part of the file's name is used.
   std::optional<std::string> text;
   std::size_t longest = 0;
-  for (const std::string& setting : source_.values) {
-    const Stated stated = stated_in(setting);
+  for (const std::string& value : source_.values) {
+    const Stated stated = stated_in(value);
     if (stated.name != w.name || !stated.is_for(source_.path)) continue;
     const std::size_t length = stated.part.size();
     if (text && length == longest && *text != stated.value)
-      problems_.add(0, 0, fmt::format("values.{}", w.name),
+      problems_.add(0, 0, setting,
                     fmt::format("{} and {} for one file", config::in_quotes(*text),
                                 config::in_quotes(stated.value)),
                     "one value", "a longer part of the file's name before the colon");
     if (!text || length > longest) text = stated.value, longest = length;
   }
   if (!text) return false;
-  if (source_.names.contains(std::string(w.name)) || grid_.column_called(w.name))
-    problems_.add(
-        grid_.header_line(), 1, std::string(w.name),
-        fmt::format("a column, and the value {} for the whole file", config::in_quotes(*text)),
-        "one of the two");
+  if (source_.names.contains(std::string(w.name)) || grid_.header().called(w.name))
+    refuse_both(
+        w, fmt::format("a column, and the value {} for the whole file", config::in_quotes(*text)));
   FoundColumn f{.spec = &w, .index = grid_.headings().size()};
   for (const auto& [word, meant] : w.words)
     if (*text == word) f.constant = meant;
   if (w.words.empty()) {
     const config::Parsed parsed = config::parse_quantity(*text, w.unit, source_.atmosphere);
     if (parsed.mistake)
-      problems_.add(0, 0, fmt::format("values.{}", w.name), parsed.mistake->found,
-                    parsed.mistake->expected, parsed.mistake->try_this);
+      problems_.add(0, 0, setting, parsed.mistake->found, parsed.mistake->expected,
+                    parsed.mistake->try_this);
     f.constant = parsed.si;
   } else if (!f.constant) {
-    problems_.add(0, 0, fmt::format("values.{}", w.name), config::in_quotes(*text),
-                  std::string(w.doc));
+    problems_.add(0, 0, setting, config::in_quotes(*text), std::string(w.doc));
   }
   out.push_back(std::move(f));
   return true;
 }
 
-void ColumnFinder::add_offset(const ColumnSpec& w, FoundColumn& f) {
+void WantedColumns::add_offset(const ColumnSpec& w, FoundColumn& f) {
   const auto given = source_.offsets.find(std::string(w.name));
   if (given == source_.offsets.end()) return;
-  const config::Parsed added = parse_offset(given->second, std::string(w.unit), source_.atmosphere);
+  const config::Parsed added = parse_offset(given->second, w.unit, source_.atmosphere);
   if (added.mistake)
     problems_.add(0, 0, fmt::format("offsets.{}", w.name), added.mistake->found,
                   added.mistake->expected, added.mistake->try_this);
   f.conversion.offset += added.si;
 }
 
-// Refuses two columns of one name, as either may be meant. Columns with an @ belong together.
-void ColumnFinder::refuse_duplicate(const std::string& name, std::size_t first) {
-  for (std::size_t i = first + 1; i < grid_.headings().size(); ++i) {
-    const Heading& h = grid_.headings()[i];
-    if (h.name == name && h.at_name.empty())
-      problems_.add(grid_.header_line(), h.column, name, "a second column of this name", "one",
-                    "another name for it in the header");
-  }
-}
-
-// Returns the only channel that ends with the name, or else a similar name in quotes.
-std::string ColumnFinder::near_name(const std::string& name) const {
-  std::vector<std::string_view> channels;
-  for (const std::string_view one : grid_.names())
-    if (one.starts_with('/') && one.ends_with("/" + name)) channels.push_back(one);
-  if (channels.size() == 1) return std::string(channels.front());
-  return config::closest_in_quotes(name, grid_.names());
-}
-
 // Requires that the names in `names`, `units` and the like exist.
-void ColumnFinder::check_names(std::span<const ColumnSpec> specs) {
+void WantedColumns::check_names(std::span<const ColumnSpec> specs) {
   const auto known = config::names_of(specs);
   const auto check = [&](const char* setting, const std::string& name) {
     if (std::ranges::find(known, name) == known.end())
@@ -215,37 +185,20 @@ void ColumnFinder::check_names(std::span<const ColumnSpec> specs) {
   };
   for (const auto& [name, file_name] : source_.names) check("names", name);
   for (const auto& [name, offset] : source_.offsets) check("offsets", name);
-  for (const std::string& setting : source_.values) check("values", stated_in(setting).name);
-  check_columns(grid_, "units", source_.units, problems_);
+  for (const std::string& value : source_.values) check("values", stated_in(value).name);
+  check_columns(grid_.header(), "units", source_.units, problems_);
 }
 
-// Uses the first meaning of the unit's text that has the wanted dimension.
-void ColumnFinder::convert(const Heading& h, const ColumnSpec& w, FoundColumn& f) {
+void WantedColumns::convert(const ColumnSpec& w, FoundColumn& f) {
   const bool stamps = holds_time(grid_.dialect.kinds[f.index]) || source_.dates == "excel" ||
                       (w.name == "time" && split_seconds(grid_, f.index));
   if (!w.words.empty() || (w.name == "time" && stamps)) return;
-  auto given = source_.units.find(h.name);
-  if (given == source_.units.end()) given = source_.units.find(h.written);
-  f.unit = given != source_.units.end() ? given->second : unit_in(h);
-  const auto unit = file_unit(f.unit, std::string(w.unit), source_.atmosphere);
-  if (const auto* advice = std::get_if<std::string>(&unit))
-    return refuse_unit(h, w, f.unit, *advice);
-  f.conversion = std::get<FileUnit>(unit).conversion;
-  f.shown = std::get<FileUnit>(unit).shown;
-}
-
-void ColumnFinder::refuse_unit(const Heading& h, const ColumnSpec& w, const std::string& unit,
-                               const std::string& try_this) {
-  if (unit.empty()) {
-    problems_.add(grid_.header_line(), h.column, std::string(w.name),
-                  fmt::format("the column {} without a unit", config::in_quotes(h.name)),
-                  config::describe_unit(w.unit),
-                  fmt::format("`{0} [{1}]` in the header, or units.{0}=\"{1}\"", h.name, w.unit));
-    return;
-  }
-  problems_.add(grid_.header_line(), h.column, std::string(w.name),
-                fmt::format("the unit {}", config::in_quotes(unit)), config::describe_unit(w.unit),
-                try_this);
+  f.unit = columns_.unit_of(f.index);
+  const auto unit =
+      columns_.convert(f.index, {std::string(w.name), std::string(w.unit), std::string(w.doc)});
+  if (!unit) return;
+  f.conversion = unit->conversion;
+  f.shown = unit->shown;
 }
 
 // Returns units of the wanted dimension with which the file's number would be in range: "mm or in".
@@ -262,13 +215,6 @@ std::string possible_units(const ColumnSpec& spec, double number) {
   return out;
 }
 
-// Returns the column with the times, if the file has one.
-std::optional<std::size_t> clock_of(const Grid& grid, const Source& source) {
-  const auto given = source.names.find("time");
-  const std::string name = given != source.names.end() ? given->second : "time";
-  return grid.column_called(name);
-}
-
 bool needs_time(std::span<const ColumnSpec> specs) {
   return std::ranges::find(specs, "time", &ColumnSpec::name) != specs.end();
 }
@@ -277,11 +223,14 @@ bool needs_time(std::span<const ColumnSpec> specs) {
 class Table {
  public:
   Table(const Grid& grid, const Source& source)
-      : grid_(grid), source_(source), problems_(grid.file) {}
+      : grid_(grid),
+        source_(source),
+        problems_(grid.file),
+        columns_(grid.header(), source.names, source.units, source.atmosphere, problems_) {}
 
   Measured read(std::span<const ColumnSpec> specs) {
     refuse_clocks(specs);
-    found_ = ColumnFinder(grid_, source_, problems_).find(specs);
+    found_ = WantedColumns(grid_, source_, columns_, problems_).find(specs);
     find_clock();
     SelectedRows rows(grid_, source_, clock_, read_columns(), problems_);
     problems_.finish();
@@ -328,7 +277,7 @@ class Table {
 
   // Refuses columns of another clock, as they would get the times of the first one.
   void refuse_clocks(std::span<const ColumnSpec> specs) {
-    const std::optional<std::size_t> clock = clock_of(grid_, source_);
+    const std::optional<std::size_t> clock = columns_.find("time");
     const std::vector<ClockColumns> clocks = clocks_with(clock);
     if (clocks.empty() || !needs_time(specs)) return;
     const auto is_own = [&](std::size_t column) {
@@ -337,17 +286,17 @@ class Table {
       });
     };
     for (const ColumnSpec& w : specs) {
-      if (!w.replaces.empty() && grid_.column_called(w.replaces)) continue;
-      const auto given = source_.names.find(std::string(w.name));
-      const std::string name = given == source_.names.end() ? std::string(w.name) : given->second;
-      const auto column = grid_.column_called(name);
+      if (!w.replaces.empty() && grid_.header().called(w.replaces)) continue;
+      const auto column = columns_.find(w.name);
       if (!column || w.name == "time" || is_own(*column)) continue;
-      problems_.add(grid_.header_line(), grid_.headings()[*column].column, std::string(w.name),
-                    fmt::format("the column {} of another clock than {}", config::in_quotes(name),
-                                config::in_quotes(grid_.headings()[*clock].name)),
-                    "columns of one clock",
-                    "the table resampled at the times of one clock; sinew import reads several, "
-                    "for channels of a robot");
+      const Heading& heading = grid_.headings()[*column];
+      problems_.add(
+          grid_.header().line, heading.column, std::string(w.name),
+          fmt::format("the column {} of another clock than {}", config::in_quotes(heading.name),
+                      config::in_quotes(grid_.headings()[*clock].name)),
+          "columns of one clock",
+          "the table resampled at the times of one clock; sinew import reads several, "
+          "for channels of a robot");
     }
     problems_.finish();
   }
@@ -418,7 +367,7 @@ class Table {
         config::parse_quantity(at.at_value, f.spec->unit, source_.atmosphere);
     if (!parsed.mistake) return parsed.si;
     if (bad_conditions_.insert(at.column).second)
-      problems_.add(grid_.header_line(), at.column, at.at_name, parsed.mistake->found,
+      problems_.add(grid_.header().line, at.column, at.at_name, parsed.mistake->found,
                     parsed.mistake->expected, parsed.mistake->try_this);
     return std::nullopt;
   }
@@ -451,7 +400,7 @@ class Table {
       const std::string others = in_file || bare ? possible_units(w, f.conversion.back(size)) : "";
       const bool there = f.index < grid_.headings().size();
       const Heading heading = there ? grid_.headings()[f.index] : Heading{};
-      problems_.add(grid_.header_line(), heading.column, std::string(w.name),
+      problems_.add(grid_.header().line, heading.column, std::string(w.name),
                     "values up to " + shown(size),
                     fmt::format("between {} and {}: a wrong unit, or another column",
                                 shown(w.least), shown(w.most)),
@@ -510,6 +459,7 @@ class Table {
   const Grid& grid_;
   const Source& source_;
   config::Problems problems_;
+  ColumnResolver columns_;
   std::vector<FoundColumn> found_;
   RowClock clock_;
   std::optional<RowTime> first_time_;
@@ -521,7 +471,8 @@ class Table {
 
 Measured read_rows(std::string bytes, const Source& source, std::span<const ColumnSpec> specs) {
   Grid grid = read_grid(std::move(bytes), source);
-  const auto clock = needs_time(specs) ? clock_of(grid, source) : std::nullopt;
+  const auto clock =
+      needs_time(specs) ? column_of(grid.header(), source.names, "time") : std::nullopt;
   if (source.part != 0) keep_part(grid, source, clock);
   try {
     return Table(grid, source).read(specs);

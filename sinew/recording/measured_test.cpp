@@ -52,6 +52,12 @@ TEST(Measured, AForeignFileIsReadBySayingWhatItsColumnsAre) {
   EXPECT_EQ(m.lines, (std::vector<int>{3, 5}));
 }
 
+TEST(Measured, AReferenceInTheNameBelongsToTheUnit) {
+  const Source source{.names = {{"pressure", "Druck abs"}}, .atmosphere = 1e5};
+  const Measured m = read("Druck abs [mbar],force [N]\n2000,12.5\n3000,20\n", source);
+  EXPECT_NEAR(m["pressure"][0], 1e5, 1e-6);
+}
+
 TEST(Measured, AFileWithoutAHeaderIsReadByItsColumns) {
   Source source{.columns = {"force [N]", "pressure [kPa gauge]", "time [s]"}};
   const Measured m = read("14.5,8.9,0\n14.6,9.0,0.001\n", source);

@@ -10,8 +10,8 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
-#include "sinew/config/spelling.h"
 #include "sinew/recording/clock.h"
+#include "sinew/recording/columns.h"
 #include "sinew/recording/grid.h"
 #include "sinew/recording/parts.h"
 #include "sinew/recording/selected_rows.h"
@@ -46,7 +46,11 @@ const std::vector<ClockNames>& clock_names() {
 class RawReader {
  public:
   RawReader(const Grid& grid, const Source& source, std::optional<ClockColumns> only = {})
-      : grid_(grid), source_(source), only_(only), problems_(grid.file) {}
+      : grid_(grid),
+        source_(source),
+        only_(only),
+        problems_(grid.file),
+        columns_(grid.header(), source.names, source.units, source.atmosphere, problems_) {}
 
   // Returns the time column, if it can be found.
   std::optional<std::size_t> clock() {
@@ -55,9 +59,9 @@ class RawReader {
 
   // Reads the table; `names` holds the names of columns read before.
   RawTable read(std::set<std::string>& names) {
-    RawTable out{.file = grid_.file};
+    RawTable out{.file = grid_.file, .header_line = grid_.header().line};
     if (!only_ || only_->from == 0) out.notes = grid_.notes;
-    check_columns(grid_, "units", source_.units, problems_);
+    check_columns(grid_.header(), "units", source_.units, problems_);
     find_clock(out);
     choose_columns(names, out);
     SelectedRows rows(grid_, source_, clock_, indices_, problems_, only_);
@@ -77,14 +81,10 @@ class RawReader {
   // Returns the given column, a column of stamps, or one with a usual name.
   std::optional<std::size_t> clock_column() {
     if (only_) return only_->clock;
-    const auto stated = source_.names.find("time");
-    if (stated != source_.names.end()) {
-      if (const auto column = grid_.column_called(stated->second)) return column;
-      const auto names = config::names_of(grid_.headings());
-      problems_.add(grid_.header_line(), 1, "time",
-                    fmt::format("no column {}", config::in_quotes(stated->second)),
-                    config::either(names), config::closest_in_quotes(stated->second, names));
-      return std::nullopt;
+    if (source_.names.contains("time")) {
+      const auto column = columns_.find("time");
+      if (!column) columns_.refuse_missing({"time", "s", "the clock of the rows"});
+      return column;
     }
     for (const ColumnKind kind :
          {ColumnKind::stamps, ColumnKind::dates, ColumnKind::times_of_day}) {
@@ -103,14 +103,13 @@ class RawReader {
     clock_ = RowClock(grid_, source_, clock());
     of_clock_.insert(clock_.columns().begin(), clock_.columns().end());
     if (clock_.kind() == RowClock::Kind::rate) {
-      out.clock = source_.rate.empty() ? "rate of its header" : "rate " + source_.rate;
       if (source_.rate.empty()) out.first = grid_.dialect.first;
       return;
     }
     for (const std::size_t used : clock_.columns())
-      out.clock += (out.clock.empty() ? "column " : " and ") + grid_.headings()[used].name;
+      out.clock += (out.clock.empty() ? "" : " and ") + grid_.headings()[used].name;
     if (!is_numbers() || source_.dates == "excel") return;
-    find_unit(clock_heading());
+    find_unit(clock_.columns().front());
     if (!note_.empty()) out.notes.push_back(note_);
   }
 
@@ -118,22 +117,21 @@ class RawReader {
   const Heading& clock_heading() const { return grid_.headings()[clock_.columns().front()]; }
 
   // Finds the unit of a clock of numbers.
-  void find_unit(const Heading& h) {
-    auto stated = source_.units.find(h.name);
-    const bool is_given = stated != source_.units.end() ||
-                          (stated = source_.clock_units.find(h.name)) != source_.clock_units.end();
-    std::string unit = is_given ? stated->second : h.file_unit;
+  void find_unit(std::size_t column) {
+    const Heading& h = grid_.headings()[column];
+    const auto given = source_.clock_units.find(h.name);
+    std::string unit = columns_.unit_of(column);
+    if (given != source_.clock_units.end() && !source_.units.contains(h.name)) unit = given->second;
     for (const ClockNames& known : clock_names())
       if (unit.empty() && std::ranges::count(known.names, units::lower(h.name)) > 0)
         unit = known.unit;
-    for (const config::Spelling& meaning : config::spellings(unit)) {
-      const config::Parsed one = config::parse_quantity("1 " + meaning.unit, "s");
-      if (one.mistake) continue;
-      slope_ = one.si * meaning.factor;
+    const auto read = file_unit(unit, "s", source_.atmosphere);
+    if (const auto* found = std::get_if<FileUnit>(&read)) {
+      slope_ = found->conversion.slope;
       return;
     }
     if (unit.empty() && find_unit_since_1970(h)) return;
-    problems_.add(grid_.header_line(), h.column, h.name,
+    problems_.add(grid_.header().line, h.column, h.name,
                   unit.empty() ? "times without a unit" : "the unit " + config::in_quotes(unit),
                   "s, ms, us, min or h",
                   looks_like_days() ? std::string("dates=excel, if these are Excel's days")
@@ -188,11 +186,9 @@ class RawReader {
   }
 
   void add_column(std::size_t index, std::set<std::string>& names, RawTable& out) {
-    Heading h = grid_.headings()[index];
-    const auto stated = source_.units.find(h.name);
-    if (stated != source_.units.end()) set_unit(h, stated->second);
-    RawColumn column{.name = h.name, .unit = h.unit, .header = h.written};
-    column.known_unit = !h.unit.empty() && config::is_unit(h.unit);
+    const Heading& h = grid_.headings()[index];
+    RawColumn column{h};
+    column.unit = columns_.unit_of(index);
     if (column.name.empty()) column.name = fmt::format("column {}", index + 1);
     for (int again = 2; !names.insert(column.name).second; ++again) {
       column.name = fmt::format("{} ({})", h.name, again);
@@ -202,7 +198,6 @@ class RawReader {
     }
     out.columns.push_back(std::move(column));
     indices_.push_back(index);
-    factors_.push_back(h.factor);
   }
 
   bool has_clock() const { return clock_.kind() != RowClock::Kind::none; }
@@ -227,7 +222,7 @@ class RawReader {
     for (std::size_t i = 0; i < indices_.size(); ++i) {
       RawColumn& column = out.columns[i];
       const double number = rows.number(indices_[i], column.name, true).value_or(no_value);
-      column.values.push_back(number * factors_[i]);
+      column.values.push_back(number);
       column.missing += std::isnan(number) ? 1 : 0;
     }
   }
@@ -313,13 +308,13 @@ class RawReader {
   const Source& source_;
   std::optional<ClockColumns> only_;
   config::Problems problems_;
+  ColumnResolver columns_;
   RowClock clock_;
   double slope_ = 1;                    // seconds per unit of the clock
   std::string note_;                    // about the clock
   std::set<std::size_t> of_clock_;      // columns of the clock
   std::vector<std::int64_t> instants_;  // [ns]
   std::vector<std::size_t> indices_;    // indices of the columns that are read
-  std::vector<double> factors_;         // factors from the file's numbers to the columns' units
   std::size_t without_time_ = 0;
 };
 

@@ -8,27 +8,26 @@
 #include <string>
 #include <vector>
 
+#include "sinew/recording/columns.h"
 #include "sinew/recording/source.h"
 
 namespace sinew::recording {
 
-// Column of the file. Its numbers are in `unit`; NaN for a cell without a number.
-struct RawColumn {
-  std::string name;            // "force", of "force [N]"
-  std::string unit;            // in Sinew's spelling, "psi gauge" for "psig"; empty: not given
-  bool known_unit = false;     // whether Sinew has `unit`; "bar" is known, without its reference
-  std::string header;          // as in the file: "Kraft (N)"
-  std::vector<double> values;  // one per row
-  std::size_t missing = 0;     // number of NaN values
+// Column of the file under its heading. If the file has several columns of one name, the name of
+// each further one is followed by a number.
+struct RawColumn : Heading {
+  std::vector<double> values = {};  // one per row, in the file's unit; NaN for a cell without one
+  std::size_t missing = 0;          // number of NaN values
 };
 
 // Table of measurements in the order of the file.
 struct RawTable {
   std::string file;
+  int header_line = 0;             // 0: the header is not in the file
   std::vector<RawColumn> columns;  // without those of the clock
   std::vector<double> time;        // since the first row  [s]; empty: the file has no clock
   double first = 0;                // the first row's own time, if the clock holds numbers  [s]
-  std::string clock;               // source of the times: "column Zeit", "rate 100 Hz"
+  std::string clock;               // columns with the times: "Zeit", "Datum and Uhrzeit"
   std::string start;  // instant of the first row, "2026-11-24T10:15:30.125"; empty: unknown
   // Time of the first row since 1970 or, without dates, since a midnight [ns]; UTC if the table has
   // a zone.

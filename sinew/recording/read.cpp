@@ -31,28 +31,18 @@ std::string first_bytes(const std::string& path) {
   return bytes;
 }
 
-// Returns "Zeit" of "column Zeit"; empty if the times are from elsewhere.
-std::string column_of(const std::string& clock) {
-  constexpr std::string_view before = "column ";
-  return clock.starts_with(before) ? clock.substr(before.size()) : "";
-}
-
 // Adds the columns of one clock; times count from `origin` if the clock has one.
 void add_clock(RawTable& table, std::optional<std::int64_t> origin, Recorded& out) {
-  Clock clock{.column = column_of(table.clock),
-              .origin = origin,
-              .has_date = table.has_date,
-              .zone = table.zone};
+  Clock clock{
+      .column = table.clock, .origin = origin, .has_date = table.has_date, .zone = table.zone};
   const std::int64_t late = origin && table.instant ? *table.instant - *origin : 0;
   const double first = origin ? 0 : table.first;
   clock.time_ns.reserve(table.time.size());
   for (const double t : table.time) clock.time_ns.push_back(late + std::llround(1e9 * (first + t)));
   out.clocks.push_back(std::move(clock));
   for (RawColumn& column : table.columns)
-    out.columns.push_back({.name = std::move(column.name),
-                           .unit = std::move(column.unit),
-                           .clock = out.clocks.size() - 1,
-                           .values = signals::Column(std::move(column.values))});
+    out.columns.push_back(
+        {{column}, out.clocks.size() - 1, signals::Column(std::move(column.values))});
 }
 
 Recorded read_text(const std::string& path, const Mapping& mapping,
@@ -68,7 +58,8 @@ Recorded read_text(const std::string& path, const Mapping& mapping,
     config::fail({path, 0, 0}, "time", "no column of times",
                  "one that is called time, t or Zeit, or dates",
                  "names.time=NAME, or rate=\"100 Hz\"");
-  Recorded out{.file = path, .kind = "CSV", .started = table.start};
+  Recorded out{
+      .file = path, .kind = "CSV", .started = table.start, .header_line = table.header_line};
   out.notes = std::move(table.notes);
   const std::optional<std::int64_t> origin = table.instant;
   add_clock(table, origin, out);
@@ -110,11 +101,10 @@ Recorded read_mcap(const std::string& path) {
     for (std::size_t f = 0; f < s.columns.size(); ++f) {
       const signals::Field& field = s.topic.fields[f];
       const bool whole = s.columns.size() == 1 && field.name == "value";
-      out.columns.push_back(
-          {.name = config::without_controls(whole ? s.topic.name : s.topic.name + "." + field.name),
-           .unit = field.unit,
-           .clock = out.clocks.size() - 1,
-           .values = s.columns[f]});
+      const std::string name = whole ? s.topic.name : s.topic.name + "." + field.name;
+      out.columns.push_back({{.name = config::without_controls(name), .unit = field.unit},
+                             out.clocks.size() - 1,
+                             s.columns[f]});
     }
   }
   count_from_the_first(out);

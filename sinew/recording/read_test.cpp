@@ -87,7 +87,7 @@ TEST_F(ReadTest, ALogOfAnotherProgramCountsFromItsFirstMessage) {
             (std::vector<std::int64_t>{0, 10'000'000, 20'000'000}));
   EXPECT_EQ(r.clocks[0].origin, start);
   EXPECT_EQ(r.started.substr(0, 10), "2026-11-29") << r.started;
-  EXPECT_TRUE(r.find("state.angle") == &r.columns[0] || r.find("angle") == &r.columns[0]);
+  EXPECT_TRUE(r.header().find("state.angle") == 0u || r.header().find("angle") == 0u);
 }
 
 // Two topics in JSON with a schema number that does not exist; one message has no value.

@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "sinew/recording/columns.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::recording {
@@ -26,10 +26,8 @@ struct Clock {
   std::optional<std::int64_t> zone = {};  // local minus UTC [ns]; absent: the file gives no zone
 };
 
-// Column of a recording.
-struct RecordedColumn {
-  std::string name;        // "Winkel", "log.angle", "/joint/hip/angle", "/foot/position.x"
-  std::string unit;        // as given in the file; empty: not given
+// Column of a recording, named "Winkel", "log.angle", "/joint/hip/angle" or "/foot/position.x".
+struct RecordedColumn : Heading {
   std::size_t clock = 0;   // index in Recorded::clocks
   signals::Column values;  // one per time; NaN where the file has no value
   bool stated = false;     // value for the whole file, instead of a column
@@ -40,14 +38,14 @@ struct Recorded {
   std::string file;
   std::string kind;     // "CSV", "MCAP", "MATLAB"
   std::string started;  // as given in the file or by its clock; empty: unknown
+  int header_line = 0;  // 0: the file has no header
   std::vector<Clock> clocks;
   std::vector<RecordedColumn> columns;
   std::vector<std::string> notes;  // the reader's omissions and assumptions
   bool complete = true;            // false: the file was cut off
 
-  // Returns the column of that name, or the only column whose name ends with it after a dot or a
-  // slash; nullptr if none is found.
-  const RecordedColumn* find(std::string_view name) const;
+  // Returns the names and units of the columns.
+  Header header() const { return {file, header_line, {columns.begin(), columns.end()}}; }
 };
 
 }  // namespace sinew::recording

@@ -7,6 +7,7 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
+#include "sinew/recording/columns.h"
 
 namespace sinew::recording {
 
@@ -40,9 +41,9 @@ SelectedRows::SelectedRows(const Grid& grid, const Source& source, RowClock& clo
       only_(only),
       columns_(std::move(columns)),
       body_(grid) {
-  check_columns(grid, "where", source.where, problems);
+  check_columns(grid.header(), "where", source.where, problems);
   for (const auto& [name, values] : source.where)
-    if (const auto column = grid.column_called(name)) where_.emplace_back(*column, values);
+    if (const auto column = grid.header().find(name)) where_.emplace_back(*column, values);
 }
 
 bool SelectedRows::next() {

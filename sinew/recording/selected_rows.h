@@ -31,19 +31,6 @@ inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 // Words of a column that mean numbers.
 using NumberWords = std::span<const std::pair<std::string_view, double>>;
 
-// Adds a problem if one of the names in a setting, "units" or "where", is no column of the table.
-template <class Values>
-void check_columns(const Grid& grid, const char* setting, const Values& values,
-                   config::Problems& problems) {
-  for (const auto& [name, value] : values) {
-    const std::vector<std::string_view> names = grid.names();
-    if (grid.column_called(name) || std::ranges::find(names, name) != names.end()) continue;
-    problems.add(0, 0, setting, config::in_quotes(name),
-                 "a column of the file: " + grid.all_names(),
-                 config::closest_in_quotes(name, names));
-  }
-}
-
 class SelectedRows {
  public:
   // Keeps references to grid, source, clock and problems, which must outlive this object. `columns`

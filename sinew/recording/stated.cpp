@@ -33,11 +33,11 @@ void add_stated(const std::vector<std::string>& values, Recorded& file) {
       config::fail({"values", 0, 0}, "", config::in_quotes(text),
                    "a number with its unit, such as \"/muscle/flexor/pressure=2 bar gauge\"");
     const std::size_t rows = file.clocks.front().time_ns.size();
+    const Heading heading{.name = stated.name,
+                          .unit = blank < stated.value.size() ? stated.value.substr(blank + 1) : "",
+                          .column = 0};
     file.columns.push_back(
-        {.name = stated.name,
-         .unit = blank < stated.value.size() ? stated.value.substr(blank + 1) : std::string(),
-         .values = signals::Column(std::vector<double>(rows, *number)),
-         .stated = true});
+        {{heading}, 0, signals::Column(std::vector<double>(rows, *number)), true});
   }
 }
 

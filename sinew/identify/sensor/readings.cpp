@@ -9,6 +9,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/text_file.h"
+#include "sinew/recording/columns.h"
 #include "sinew/recording/grid.h"
 #include "sinew/units/unit.h"
 
@@ -17,7 +18,6 @@ namespace sinew::identify {
 namespace {
 
 using recording::Grid;
-using recording::Heading;
 
 constexpr std::array kinds{
     KindFacts{SensorKind::angle, "angle", "rad", "V/rad", "V/rad2"},
@@ -46,61 +46,67 @@ constexpr ColumnSpec time_of_reading{
 
 struct Layout {
   const Known* known = nullptr;
-  const Heading* known_heading = nullptr;
-  std::vector<const Heading*> sensors;
+  std::string unit;  // of the known quantity, as the file or the user gives it
+  std::vector<ColumnSpec> sensors;
 };
 
-class Finder {
+// Finds the columns of a calibration. Returned names are those of the grid and of `only`.
+class LayoutFinder {
  public:
-  Finder(const Grid& grid, const Source& source) : grid_(grid), source_(source) {}
+  LayoutFinder(const Grid& grid, const Source& source)
+      : header_(grid.header()),
+        problems_(grid.file),
+        columns_(header_, source.names, source.units, source.atmosphere, problems_) {}
 
-  Layout find(const std::string& wanted, const std::vector<std::string>& only) const {
+  Layout find(const std::string& wanted, const std::vector<std::string>& only) {
     Layout layout;
-    for (const Known& known : names_of_known) consider(known, wanted, layout);
+    for (const Known& known : names_of_known)
+      if (wanted.empty() || known.spec.name == wanted) consider(known, layout);
     if (!layout.known) refuse_unknown(wanted);
-    for (const Heading& h : grid_.headings())
-      if (is_output(h) && (only.empty() || std::ranges::find(only, h.name) != only.end()))
-        add_sensor(h, layout);
-    for (const std::string& name : only) refuse_missing(name, layout);
+    std::vector<std::string_view> all;
+    for (std::size_t i = 0; i < header_.columns.size(); ++i) {
+      const std::string& name = header_.columns[i].name;
+      const std::string_view unit = output_unit(i);
+      const bool is_first = std::ranges::find(all, name) == all.end();
+      if (unit.empty() || !is_first) continue;
+      all.push_back(name);
+      if (only.empty() || std::ranges::find(only, name) != only.end())
+        layout.sensors.push_back({.name = name, .unit = unit, .doc = "of the sensor"});
+    }
+    for (const std::string& name : only)
+      if (std::ranges::find(all, name) == all.end())
+        config::fail({"sensors", 0, 0}, "", config::in_quotes(name),
+                     all.empty() ? "a column in volts or counts" : config::either(all),
+                     config::closest_in_quotes(name, all));
     if (layout.sensors.empty())
-      config::fail(header(), "sensor", "no column in volts or counts among " + grid_.all_names(),
-                   "at least one in addition to " + layout.known_heading->name,
+      config::fail(first_cell(), "sensor",
+                   "no column in volts or counts among " + header_.all_names(),
+                   fmt::format("at least one in addition to {}", layout.known->spec.name),
                    "its unit in the header, `gage [V]`, or units.gage=V");
     return layout;
   }
 
-  std::string unit_of(const Heading& h) const {
-    const auto override = source_.units.find(h.name);
-    return override == source_.units.end() ? h.unit : override->second;
-  }
-
  private:
-  config::Location header() const { return {grid_.file, grid_.header_line(), 1}; }
+  config::Location first_cell() const { return {header_.file, header_.line, 1}; }
 
-  units::Dimension dimension(const Heading& h) const {
-    const std::string unit = unit_of(h);
+  // Returns "V" or "count" for a column of a sensor; empty for another one.
+  std::string_view output_unit(std::size_t column) const {
+    const std::string unit = recording::own_unit(columns_.unit_of(column)).shown;
     const units::UnitReading reading = units::read_unit(unit);
-    return reading.ok && !unit.empty() ? reading.unit.dimension : units::dimension::none;
+    if (!reading.ok || unit.empty()) return {};
+    if (reading.unit.dimension == units::dimension::count) return "count";
+    return reading.unit.dimension == units::dimension::voltage ? "V" : "";
   }
 
-  bool is_output(const Heading& h) const {
-    const units::Dimension d = dimension(h);
-    return d == units::dimension::voltage || d == units::dimension::count;
-  }
-
-  void consider(const Known& known, const std::string& wanted, Layout& layout) const {
-    if (!wanted.empty() && known.spec.name != wanted) return;
-    const auto mapped = source_.names.find(std::string(known.spec.name));
-    const std::string name =
-        mapped == source_.names.end() ? std::string(known.spec.name) : mapped->second;
-    const auto heading = std::ranges::find(grid_.headings(), name, &Heading::name);
-    if (heading == grid_.headings().end() || is_output(*heading)) return;
+  void consider(const Known& known, Layout& layout) const {
+    const auto column = columns_.find(known.spec.name);
+    if (!column || !output_unit(*column).empty()) return;
     if (layout.known)
-      config::fail(header(), "known quantity",
+      config::fail(first_cell(), "known quantity",
                    fmt::format("both {} and {}", layout.known->spec.name, known.spec.name), "one",
                    fmt::format("known={}", layout.known->spec.name));
     layout.known = &known;
-    layout.known_heading = &*heading;
+    layout.unit = recording::own_unit(columns_.unit_of(*column)).shown;
   }
 
   [[noreturn]] void refuse_unknown(const std::string& wanted) const {
@@ -109,32 +115,14 @@ class Finder {
     if (!wanted.empty() && std::ranges::find(names, wanted) == names.end())
       config::fail({"known", 0, 0}, "", config::in_quotes(wanted), config::either(names),
                    config::closest_in_quotes(wanted, names));
-    config::fail(header(), "known quantity", "none among " + grid_.all_names(),
+    config::fail(first_cell(), "known quantity", "none among " + header_.all_names(),
                  "a column of what was set: " + config::either(names),
                  "names.load=NAME with the file's name for it");
   }
 
-  void add_sensor(const Heading& h, Layout& layout) const {
-    for (const Heading* other : layout.sensors)
-      if (other->name == h.name)
-        config::fail({grid_.file, grid_.header_line(), h.column}, "sensor",
-                     fmt::format("two columns {}", config::in_quotes(h.name)),
-                     "a name of its own for each", "");
-    layout.sensors.push_back(&h);
-  }
-
-  void refuse_missing(const std::string& name, const Layout& layout) const {
-    std::vector<std::string_view> names;
-    for (const Heading& h : grid_.headings())
-      if (is_output(h)) names.push_back(h.name);
-    if (std::ranges::find(layout.sensors, name, &Heading::name) == layout.sensors.end())
-      config::fail({"sensors", 0, 0}, "", config::in_quotes(name),
-                   names.empty() ? "a column in volts or counts" : config::either(names),
-                   config::closest_in_quotes(name, names));
-  }
-
-  const Grid& grid_;
-  const Source& source_;
+  const recording::Header& header_;
+  config::Problems problems_;
+  recording::ColumnResolver columns_;
 };
 
 // Throws Refusal for values beyond the converter's range: they come from another source.
@@ -172,13 +160,11 @@ SensorData parse_sensor_data(std::string_view text, const Source& source,
                              const CountScale& converter, const std::string& known,
                              const std::vector<std::string>& sensors) {
   const Grid grid = recording::read_grid(std::string(text), source);
-  const Finder finder(grid, source);
-  const Layout layout = finder.find(known, sensors);
+  const Layout layout = LayoutFinder(grid, source).find(known, sensors);
 
   // For hanging weights the file contains the mass.
   ColumnSpec first = layout.known->spec;
-  std::string display = finder.unit_of(*layout.known_heading);
-  const units::UnitReading unit = units::read_unit(display);
+  const units::UnitReading unit = units::read_unit(layout.unit);
   const bool weighed = layout.known->kind == SensorKind::tension && unit.ok &&
                        unit.unit.dimension == units::dimension::mass;
   if (weighed) {
@@ -188,17 +174,13 @@ SensorData parse_sensor_data(std::string_view text, const Source& source,
   }
 
   std::vector<ColumnSpec> specs{first, time_of_reading};
-  for (const Heading* h : layout.sensors) {
-    const bool counts =
-        units::read_unit(finder.unit_of(*h)).unit.dimension == units::dimension::count;
-    specs.push_back({.name = h->name, .unit = counts ? "count" : "V", .doc = "of the sensor"});
-  }
+  specs.insert(specs.end(), layout.sensors.begin(), layout.sensors.end());
   const Measured data = parse_measured(text, source, specs);
 
   SensorData out{.file = data.file, .kind = layout.known->kind, .lines = data.lines};
   out.notes = data.notes;
   out.known = data[first.name];
-  out.display = weighed && display != "lb" ? "N" : weighed ? "lbf" : display;
+  out.display = !weighed ? layout.unit : layout.unit == "lb" ? "lbf" : "N";
   if (weighed) {
     for (double& x : out.known) x *= units::standard_gravity;
     out.notes.emplace_back("the loads are masses: they pull with 9.80665 m/s2");

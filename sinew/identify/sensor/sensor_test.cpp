@@ -203,7 +203,7 @@ TEST(Sensor, WhatIsWrongWithAFileIsReported) {
       {"weight [N],gage [V]\n1,2\n2,3\n", "weights.csv:1:1: known quantity: found none among"},
       {"load [N],gage\n1,2\n2,3\n", "no column in volts or counts"},
       {"load [N],force [N],gage [V]\n1,1,2\n2,2,3\n", "both load and force"},
-      {"load [N],gage [V],gage [V]\n1,1,2\n2,2,3\n", "two columns \"gage\""},
+      {"load [N],gage [V],gage [V]\n1,1,2\n2,2,3\n", "gage: found a second column of this name"},
       {"load [N],gage [V]\n1,2\n2,50\n", "weights.csv:3:1: gage: found 50 V"},
       {"load [N],gage [count]\n1,2\n2,5000\n", "0 to 4095, the counts of 12 bits"},
       {"load [psi],gage [V]\n1,2\n2,3\n", "load: found the unit \"psi\""},

@@ -19,6 +19,7 @@
 #include "sinew/identify/valve/timing.h"
 #include "sinew/identify/valve/valve.h"
 #include "sinew/json/json.h"
+#include "sinew/recording/columns.h"
 #include "sinew/recording/grid.h"
 #include "sinew/recording/parts.h"
 
@@ -30,18 +31,16 @@ namespace {
 
 using recording::Grid;
 
-// Returns the file's name of a wanted column.
-std::string called_in(const Source& source, const std::string& name) {
-  const auto said = source.names.find(name);
-  return said == source.names.end() ? name : said->second;
+// Returns the table of a source, with its rows as text.
+Grid grid_of(const Source& source) {
+  return recording::read_grid(std::string(text_of(source, "measurements as CSV")), source);
 }
 
 // Returns one source for each recording of a file: a restarted logger begins a new one.
 std::vector<Source> recordings_in(const Source& source) {
   if (source.part != 0 || !source.where.empty()) return {source};
-  const Grid grid =
-      recording::read_grid(std::string(text_of(source, "measurements as CSV")), source);
-  const auto clock = grid.column_called(called_in(source, "time"));
+  const Grid grid = grid_of(source);
+  const auto clock = recording::column_of(grid.header(), source.names, "time");
   const std::size_t parts = recording::parts_of(grid, source, clock).size();
   if (parts < 2) return {source};
   std::vector<Source> out(parts, source);
@@ -50,9 +49,7 @@ std::vector<Source> recordings_in(const Source& source) {
 }
 
 bool has_column_of_volumes(const Source& source) {
-  const Grid grid =
-      recording::read_grid(std::string(text_of(source, "measurements as CSV")), source);
-  return grid.column_called(called_in(source, "added_volume")).has_value();
+  return recording::column_of(grid_of(source).header(), source.names, "added_volume").has_value();
 }
 
 constexpr std::size_t most_samples = 20000, most_of_pulses = 15000;  // longer ones are averaged

@@ -189,11 +189,8 @@ recording::AssembledRecording read(const ImportRequest& request,
     mapping = recording::merged(recording::load_mapping(request.mapping_file), request.mapping);
   recording::check_mapping(mapping, request.mapping_file);
   std::vector<recording::Recorded> files;
-  for (const std::string& file : request.files) {
-    if (std::ranges::count(request.files, file) > 1)
-      config::fail({file, 0, 0}, "", "the same file a second time", "each file once");
+  for (const std::string& file : request.files)
     files.push_back(recording::read_recording(file, mapping, request.read));
-  }
   recording::check_stated(request.values, request.files);
   for (recording::Recorded& file : files) recording::add_stated(request.values, file);
   recording::AssembledRecording out = recording::assemble(
