@@ -309,6 +309,14 @@ void fields(Visitor& v, Prediction& p) {
                 "half-width (68 %) at these lengths and between these pressures", p.inside_68);
   units::amount(v, "inside_95", "N",
                 "half-width (95 %) at these lengths and between these pressures", p.inside_95);
+  units::optional_amount(
+      v, "per_force_68", "1",
+      "share of the force whose square is added to that of every half-width (68 %)",
+      p.per_force_68);
+  units::optional_amount(
+      v, "per_force_95", "1",
+      "share of the force whose square is added to that of every half-width (95 %)",
+      p.per_force_95);
   units::optional_amount(v, "between_68", "N",
                          "half-width (68 %) halfway in the widest gap between lengths; 0: unknown",
                          p.between_68);
@@ -327,14 +335,14 @@ void fields(Visitor& v, Prediction& p) {
   units::optional_amount(v, "above_95", "N",
                          "half-width (95 %) a fifth of their range above the pressures; 0: unknown",
                          p.above_95);
-  units::optional_amount(
-      v, "other_68", "1",
-      "half-width (68 %) at other rest lengths, share of the largest force; 0: unknown",
-      p.other_68);
-  units::optional_amount(
-      v, "other_95", "1",
-      "half-width (95 %) at other rest lengths, share of the largest force; 0: unknown",
-      p.other_95);
+  units::optional_amount(v, "other_68", "1",
+                         "half-width (68 %) at other rest lengths and no force, share of the "
+                         "largest force; 0: unknown",
+                         p.other_68);
+  units::optional_amount(v, "other_95", "1",
+                         "half-width (95 %) at other rest lengths and no force, share of the "
+                         "largest force; 0: unknown",
+                         p.other_95);
   units::optional_amount(v, "other_reach", "1",
                          "|ln(L/L_0)| up to which other rest lengths L were tested", p.other_reach);
   if ((p.rest_length > 0 || p.inside_95 > 0) && p.lengths.empty())

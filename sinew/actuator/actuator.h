@@ -120,15 +120,16 @@ struct Toe {
 // Spread of measured forces about the law's, as written to the actuator's file by an
 // identification; not part of any law, see prediction.h. 0: unknown.
 struct Prediction {
-  double rest_length = 0;                 // L_0 of the muscle [m]
-  std::vector<double> lengths;            // measured lengths, in ascending order [m]
-  double lowest = 0, highest = 0;         // measured range of gauge pressures [Pa]
-  double inside_68 = 0, inside_95 = 0;    // half-widths at these lengths, between the pressures [N]
-  double between_68 = 0, between_95 = 0;  // halfway in the widest gap between two lengths [N]
-  double beyond_68 = 0, beyond_95 = 0;    // a fifth of the range beyond the lengths [N]
-  double above_68 = 0, above_95 = 0;      // a fifth of the range beyond the pressures [N]
-  double other_68 = 0, other_95 = 0;      // muscles of other rest lengths, share of the force [-]
-  double other_reach = 0;                 // |ln(L/L_0)| over which other_* was tested [-]
+  double rest_length = 0;               // L_0 of the muscle [m]
+  std::vector<double> lengths;          // measured lengths, in ascending order [m]
+  double lowest = 0, highest = 0;       // measured range of gauge pressures [Pa]
+  double inside_68 = 0, inside_95 = 0;  // half-widths at these lengths, between the pressures [N]
+  double per_force_68 = 0, per_force_95 = 0;  // share of the force, added to all as squares [-]
+  double between_68 = 0, between_95 = 0;      // halfway in the widest gap between two lengths [N]
+  double beyond_68 = 0, beyond_95 = 0;        // a fifth of the range beyond the lengths [N]
+  double above_68 = 0, above_95 = 0;          // a fifth of the range beyond the pressures [N]
+  double other_68 = 0, other_95 = 0;  // muscles of other rest lengths, of the largest force [-]
+  double other_reach = 0;             // |ln(L/L_0)| over which other_* was tested [-]
 };
 
 struct Actuator {

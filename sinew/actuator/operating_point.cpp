@@ -49,7 +49,7 @@ OperatingPoint operating_point(const Actuator& a, double length, double gauge,
   p.volume = volume(a, length);
   p.diameter = diameter(a.braid, length - a.caps.length);
   p.braid_angle = braid_angle(a.braid, length - a.caps.length);
-  if (const ForceInterval f = force_interval(a.prediction, length, gauge); f.known) {
+  if (const ForceInterval f = force_interval(a.prediction, length, gauge, p.tension); f.known) {
     p.half_68 = f.half_68;
     p.half_95 = f.half_95;
   }

@@ -1,18 +1,19 @@
 // actuator/prediction.h - interval about the law's force that contains measured forces.
 //
 //   half-width = base + max((beyond - inside) d/0.2, (above - inside) e/0.2, 0)
-//   base^2     = inside^2 + (between^2 - inside^2) a^2
+//   base^2     = inside^2 + (between^2 - inside^2) a^2 + (b F)^2
 //
 //   inside, between, beyond, above  half-widths that hold 68 or 95 % of measured forces: at a
 //       measured length, halfway in the widest gap between two, a fifth of the range beyond the
 //       lengths, and a fifth of the range beyond the pressures [N]
 //   a  distance to the nearest measured length, relative to half the widest gap; 0 beyond the
 //      ends [-]
+//   b, F  share of the force, per_force_68 or per_force_95 [-], and the law's force [N]
 //   d, e  distance beyond the lengths and the pressures, relative to their ranges [-]
 //
 // The half-widths are counted by the identification from forces that its fit had not seen
 // (identify/actuator/static_spread.h). Nothing is known further than one range beyond, nor beyond
-// the longest mount of a muscle that has no mount within 1 % of its rest length.
+// the longest mount: the bladder is steepest there, and the threads stretch.
 #pragma once
 
 #include <algorithm>
@@ -57,18 +58,19 @@ inline double widest_gap(const std::vector<double>& lengths) {
   return out;
 }
 
-// Returns whether a muscle with this longest mount has shown the first pull of its bladder, which
-// is steepest just below the rest length: shorter mounts do not determine it, whatever the law.
-inline bool is_first_pull_measured(double longest, double rest_length) {
-  return longest >= 0.99 * rest_length;
+// Return the widest half-widths within the measured range, at a force of the law [N]; 0: unknown.
+inline double widest_inside_68(const Prediction& p, double force) {
+  return p.inside_68 > 0 ? std::hypot(std::max(p.inside_68, p.between_68), p.per_force_68 * force)
+                         : 0;
+}
+inline double widest_inside_95(const Prediction& p, double force) {
+  return p.inside_95 > 0 ? std::hypot(std::max(p.inside_95, p.between_95), p.per_force_95 * force)
+                         : 0;
 }
 
-// Return the widest half-widths within the measured range [N]; 0: unknown.
-inline double widest_inside_68(const Prediction& p) { return std::max(p.inside_68, p.between_68); }
-inline double widest_inside_95(const Prediction& p) { return std::max(p.inside_95, p.between_95); }
-
-// Returns the interval about the law's tension at a length [m] and a gauge pressure [Pa].
-inline ForceInterval force_interval(const Prediction& p, double length, double gauge_pressure) {
+// Returns the interval about the law's tension [N] at a length [m] and a gauge pressure [Pa].
+inline ForceInterval force_interval(const Prediction& p, double length, double gauge_pressure,
+                                    double tension) {
   ForceInterval out;
   if (!(p.inside_95 > 0) || p.lengths.empty()) return out;
   const double d = beyond_ends(length, p.lengths.front(), p.lengths.back());
@@ -77,19 +79,19 @@ inline ForceInterval force_interval(const Prediction& p, double length, double g
   const double away = d == 0 && gap > 0 ? nearest_length(p.lengths, length) : 0;
   const double a = gap > 0 ? away / (0.5 * gap) : 0;
   out.measured = d == 0 && e == 0;
-  const bool unseen =
-      length > p.lengths.back() && !is_first_pull_measured(p.lengths.back(), p.rest_length);
+  const bool unseen = length > (1 + same_length) * p.lengths.back();
   out.known = (d == 0 || (p.beyond_95 > 0 && d <= 1 && !unseen)) &&
               (e == 0 || (p.above_95 > 0 && e <= 1)) &&
               (p.between_95 > 0 || away < same_length * p.lengths.back());
   if (!out.known) return out;
-  const auto at = [a, d, e](double inside, double between, double beyond, double above) {
+  const auto at = [a, d, e](double inside, double between, double beyond, double above,
+                            double of_force) {
     const double form = std::max(0.0, between * between - inside * inside) * a * a;
-    return std::sqrt(inside * inside + form) +
+    return std::sqrt(inside * inside + form + of_force * of_force) +
            std::max({0.0, (beyond - inside) * d / 0.2, (above - inside) * e / 0.2});
   };
-  out.half_68 = at(p.inside_68, p.between_68, p.beyond_68, p.above_68);
-  out.half_95 = at(p.inside_95, p.between_95, p.beyond_95, p.above_95);
+  out.half_68 = at(p.inside_68, p.between_68, p.beyond_68, p.above_68, p.per_force_68 * tension);
+  out.half_95 = at(p.inside_95, p.between_95, p.beyond_95, p.above_95, p.per_force_95 * tension);
   return out;
 }
 

@@ -201,20 +201,30 @@ TEST(AcrossMuscles, CrossValidationPromisesNoLessThanHalfOfAnUnseenMuscle) {
 }
 
 // Number of forces that were left out, and of those within their interval: of the fit, and of the
-// file made from it.
+// file made from it; sums of the squares of errors and half-widths, in shares of the largest force.
 struct Held {
   int all = 0, in = 0, by_file = 0;
+  double error = 0, width = 0, width_by_file = 0;
 };
 
 void add(const Held& more, Held& to) {
   to.all += more.all;
   to.in += more.in;
   to.by_file += more.by_file;
+  to.error += more.error;
+  to.width += more.width;
+  to.width_by_file += more.width_by_file;
 }
 
 void expect_19_of_20(const Held& held) {
   EXPECT_NEAR(100.0 * held.in / held.all, 95, 3);
   EXPECT_NEAR(100.0 * held.by_file / held.all, 95, 3);
+}
+
+// Half-widths are at most 2.5 times the errors, by their root mean squares.
+void expect_narrow(const Held& held) {
+  EXPECT_LE(held.width, 2.5 * 2.5 * held.error);
+  EXPECT_LE(held.width_by_file, 2.5 * 2.5 * held.error);
 }
 
 // Counts forces within the 95 % interval of a fit to all others, where the muscle pulls. Slack
@@ -233,8 +243,13 @@ Held held(const Points& muscle, Fitted fitted) {
     const double miss = std::abs(f.force - p.force);
     ++out.all;
     out.in += miss <= f.half_95;
-    out.by_file += miss <= actuator::force_interval(file, p.length, p.pressure).half_95;
-    EXPECT_LT(f.half_95, 0.25 * found.report.full_scale);
+    const double full = found.report.full_scale;
+    const double by_file = actuator::force_interval(file, p.length, p.pressure, f.force).half_95;
+    out.by_file += miss <= by_file;
+    out.error += std::pow(miss / full, 2);
+    out.width += std::pow(f.half_95 / full, 2);
+    out.width_by_file += std::pow(by_file / full, 2);
+    EXPECT_LT(f.half_95, 0.25 * full);
   }
   return out;
 }
@@ -293,6 +308,8 @@ TEST(AcrossMuscles, IntervalsHoldWhatTheySayWithinMuscles) {
   EXPECT_GT(lengths.all, 400);
   expect_19_of_20(pressures);
   expect_19_of_20(lengths);
+  expect_narrow(pressures);
+  expect_narrow(lengths);
 }
 
 // Predicts the shortest length of each muscle with at least four, from the others: the law
@@ -314,6 +331,7 @@ TEST(AcrossMuscles, IntervalsHoldBeyondTheShortestLength) {
   EXPECT_EQ(all.all, 75);
   EXPECT_GE(100.0 * all.in / all.all, 92);
   EXPECT_GE(100.0 * all.by_file / all.all, 92);
+  expect_narrow(all);
 }
 
 // Without a mount at rest no interval is given there.
@@ -330,8 +348,8 @@ TEST(AcrossMuscles, TheMountAtRestIsNotDistinguishedFromShorterOnes) {
   EXPECT_TRUE(std::isfinite(
       predict(found, {.length = 0.196, .pressure = 5e5, .rest_length = 0.25}).half_95));
   const actuator::Prediction file = prediction_of(found, found.muscles[0]);
-  EXPECT_FALSE(actuator::force_interval(file, 0.25, 3e5).known);
-  EXPECT_TRUE(actuator::force_interval(file, 0.196, 5e5).known);
+  EXPECT_FALSE(actuator::force_interval(file, 0.25, 3e5, 0).known);
+  EXPECT_TRUE(actuator::force_interval(file, 0.196, 5e5, 0).known);
 }
 
 // The shipped muscle alone.

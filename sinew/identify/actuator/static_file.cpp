@@ -115,8 +115,8 @@ std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
   for (const char* key : {"lengths", "pressures"})
     provenance.given(path + "prediction." + key, source);
   for (const char* key :
-       {"inside_68", "inside_95", "between_68", "between_95", "beyond_68", "beyond_95", "above_68",
-        "above_95", "other_68", "other_95", "other_reach"})
+       {"inside_68", "inside_95", "per_force_68", "per_force_95", "between_68", "between_95",
+        "beyond_68", "beyond_95", "above_68", "above_95", "other_68", "other_95", "other_reach"})
     provenance.given(path + "prediction." + key, source + "; points that a fit had not seen");
   return actuator_file(without_idle_digits(std::move(a)), provenance);
 }

@@ -122,23 +122,19 @@ LeftOutLengths cross_lengths(const StaticLawFitter& model, const Points& points,
   return out;
 }
 
-// Writes the quantiles of the muscle with the largest errors.
-void add_worst_muscle(const std::vector<LeftOut>& muscles, StaticSpread& spread) {
+// Writes the errors of muscles that were left out.
+void add_muscles(const std::vector<LeftOut>& muscles, StaticSpread& spread) {
+  double square = 0;
   for (const LeftOut& m : muscles) {
-    const Quantiles q = quantiles(m.errors);
-    Quantiles& worst = spread.other_muscle;
-    worst = worst.points == 0 ? q : wider(worst, q);
-    HeldOutErrors shares = m.errors;
-    for (double& w : shares.widths) w = std::isfinite(w) ? m.largest : w;
-    const Quantiles share = quantiles(shares);
-    spread.other_share_68 = std::max(spread.other_share_68, share.q68);
-    spread.other_share_95 = std::max(spread.other_share_95, share.q95);
+    square += m.square / static_cast<double>(muscles.size());
     double next = std::numeric_limits<double>::infinity();
     for (const LeftOut& other : muscles)
       if (&other != &m)
         next = std::min(next, std::abs(std::log(other.rest_length / m.rest_length)));
     spread.other_reach = std::max(spread.other_reach, next);
   }
+  spread.other_share_68 = other_68 * std::sqrt(square);
+  spread.other_share_95 = other_95 * std::sqrt(square);
 }
 
 // Notes the errors on muscles that were left out. Returns the mean square, each muscle as a
@@ -223,6 +219,13 @@ LeftOut StaticLawFitter::leave_out(const Points& points, double muscle) const {
   LeftOut left{.rest_length = muscle, .errors = held_out_errors(one, own, s.held_out)};
   for (const StaticPoint& p : s.held_out) left.largest = std::max(left.largest, p.force);
   left.score = score(left.errors.residuals, left.largest);
+  std::vector<double> shares;
+  for (std::size_t i = 0; i < s.held_out.size(); ++i) {
+    const double off = left.errors.residuals[i], force = s.held_out[i].force + off;
+    if (std::isfinite(left.errors.widths[i]))
+      shares.push_back(off / std::hypot(left.largest, by_force * force));
+  }
+  left.square = mean_square(shares);
   return left;
 }
 
@@ -280,7 +283,7 @@ StaticSpread cross_validate(const StaticLawFitter& model, const Points& points,
   fit.cross_validated = score(inside.residuals, full_scale);
   fit.cross_validated->rmse = std::sqrt(mean(squares));
   fit.cross_validated->rmse_percent = 100 * fit.cross_validated->rmse / full_scale;
-  add_worst_muscle(muscles, out);
+  add_muscles(muscles, out);
 
   if (count_of(length_groups(points)) < 3) return out;
   LeftOutLengths ends = cross_lengths(model, points, whole, true, full_scale);

@@ -17,7 +17,8 @@ struct LeftOut {
   double rest_length = 0;  // [m]
   double largest = 0;      // force [N]
   HeldOutErrors errors;
-  Score score;  // in % of its own largest force
+  Score score;        // in % of its own largest force
+  double square = 0;  // its term of rho^2, static_spread.h [-]
 };
 
 // A static law, to be fitted to points of these muscles by its own method. Keeps references to

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "sinew/actuator/prediction.h"
 #include "sinew/actuator/tension.h"
@@ -14,6 +15,8 @@
 namespace sinew::identify {
 
 namespace {
+
+using Intervals = actuator::Prediction;
 
 constexpr double a_fifth = 0.2;  // share of the range, "beyond" of prediction.h
 constexpr int nodes = 5;         // number of pressures
@@ -82,8 +85,6 @@ IntervalPoints interval_points_of(const StaticMuscle& m) {
         add(out.between, 0.5 * (m.lengths[i] + m.lengths[i - 1]), up);
     if (!(range > 0)) continue;
     add(out.beyond, m.lengths.front() - a_fifth * range, up);
-    if (actuator::is_first_pull_measured(m.lengths.back(), m.rest_length))
-      add(out.beyond, m.lengths.back() + a_fifth * range, up);
   }
   return out;
 }
@@ -108,28 +109,43 @@ StaticForce predict(const StaticResult& result, const StaticPoint& point) {
   one[0].rest_length = muscle.rest_length;
   StaticForce out{.force = predicted(result.fit.setting, result.scales, one[0])};
   const double longest = muscle.lengths.back();
-  const bool inside = within(point.length, muscle.lengths.front(), longest) &&
-                      within(point.pressure, muscle.lowest, muscle.highest);
+  const bool is_between = within(point.length, muscle.lengths.front(), longest);
+  const bool inside = is_between && within(point.pressure, muscle.lowest, muscle.highest);
   Quantiles q = inside ? spread.inside : spread.beyond;
-  out.kind = inside ? PredictionKind::inside : PredictionKind::beyond;
-  // The quantiles of ends and of muscles that were left out already include the error of the law's
-  // form.
-  double away = 0;
-  if (!fitted(result, point.rest_length)) {
-    q = wider(q, spread.other_muscle);
-    out.kind = PredictionKind::other_muscle;
-  } else if (within(point.length, muscle.lengths.front(), longest)) {
-    away = actuator::nearest_length(muscle.lengths, point.length) / muscle.rest_length;
-  }
-  if (point.length > longest && !actuator::is_first_pull_measured(longest, muscle.rest_length))
-    q = {};
+  if (point.length > (1 + actuator::same_length) * longest) q = {};
   const double w = widths(result.fit, result.scales, one)[0];
-  out.half_68 = std::hypot(q.q68 * w, spread.between_68 * away);
-  out.half_95 = std::hypot(q.q95 * w, spread.between_95 * away);
+  out.half_68 = q.q68 * w;
+  out.half_95 = q.q95 * w;
+  if (!fitted(result, point.rest_length)) {
+    const StaticPoint top{
+        .length = longest, .pressure = muscle.highest, .rest_length = muscle.rest_length};
+    const double scale =
+        std::hypot(predicted(result.fit.setting, result.scales, top), by_force * out.force);
+    const auto of_muscle = [scale](double share) {
+      return share > 0 ? share * scale : std::numeric_limits<double>::infinity();
+    };
+    out.half_68 = std::max(out.half_68, of_muscle(spread.other_share_68));
+    out.half_95 = std::max(out.half_95, of_muscle(spread.other_share_95));
+    out.kind = PredictionKind::other_muscle;
+    return out;
+  }
+  out.kind = inside ? PredictionKind::inside : PredictionKind::beyond;
+  // The quantiles of ends that were left out already include the error of the law's form.
+  const double away =
+      is_between ? actuator::nearest_length(muscle.lengths, point.length) / muscle.rest_length : 0;
+  out.half_68 = std::hypot(out.half_68, spread.between_68 * away);
+  out.half_95 = std::hypot(out.half_95, spread.between_95 * away);
   return out;
 }
 
 actuator::Prediction prediction_of(const StaticResult& result, const StaticMuscle& m) {
+  if (!fitted(result, m.rest_length)) {
+    actuator::Actuator reference = result.muscles.front().actuator;
+    reference.prediction = prediction_of(result, result.muscles.front());
+    Intervals out = with_rest_length(reference, m.rest_length, result.scales.atmosphere).prediction;
+    out.lengths = m.lengths;
+    return out;
+  }
   const IntervalPoints places = interval_points_of(m);
   actuator::Prediction out{
       .rest_length = m.file_length, .lengths = m.lengths, .lowest = m.lowest, .highest = m.highest};
@@ -163,8 +179,10 @@ ReadingFactor reading_factor(const actuator::Actuator& a, const ForceReading& r,
   ReadingFactor out;
   out.law = 1 + (ratio - 1) / (1 + std::pow(form * most / strength, 2));
   const double left = 1 - out.law / ratio;
-  if (p.other_68 > 0)
-    out.share = std::sqrt((left_out + std::pow(left / p.other_68, 2)) / (left_out + 1));
+  if (p.other_68 > 0) {
+    const double t = p.other_68 * std::hypot(most, by_force);
+    out.share = std::sqrt((left_out + std::pow(left / t, 2)) / (left_out + 1));
+  }
   return out;
 }
 
@@ -195,20 +213,24 @@ actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double r
   const double away = std::abs(std::log(ratio));
   const double stretch =
       share_factor * (old.other_reach > 0 ? std::max(1.0, away / old.other_reach) : 1.0);
-  const auto inside = [&](double share, double of_fit) {
-    return share > 0 ? std::max(share * stretch * most, of_fit) : 0.0;
+  const auto widen = [&](double share, double Intervals::*inside, double Intervals::*between,
+                         double Intervals::*beyond, double Intervals::*above,
+                         double Intervals::*per_force) {
+    const double known = share > 0 ? 1 : 0;
+    p.*inside = known * std::max(share * stretch * most, old.*inside);
+    p.*between = known * std::max(p.*inside, old.*between);
+    p.*per_force = known * by_force * share * stretch;
+    // Errors outside the measured range are added as squares.
+    for (double Intervals::*outside : {beyond, above}) {
+      const double more = std::pow(old.*outside, 2) - std::pow(old.*inside, 2);
+      p.*outside =
+          old.*outside > 0 ? known * std::sqrt(std::pow(p.*inside, 2) + std::max(more, 0.0)) : 0;
+    }
   };
-  p.inside_68 = inside(old.other_68, old.inside_68);
-  p.inside_95 = inside(old.other_95, old.inside_95);
-  p.between_68 = inside(old.other_68, old.between_68);
-  p.between_95 = inside(old.other_95, old.between_95);
-  const auto grown = [&](double width, double outside) {
-    return old.inside_95 > 0 ? width * outside / old.inside_95 : 0.0;
-  };
-  p.beyond_68 = grown(p.inside_68, old.beyond_95);
-  p.beyond_95 = grown(p.inside_95, old.beyond_95);
-  p.above_68 = grown(p.inside_68, old.above_95);
-  p.above_95 = grown(p.inside_95, old.above_95);
+  widen(old.other_68, &Intervals::inside_68, &Intervals::between_68, &Intervals::beyond_68,
+        &Intervals::above_68, &Intervals::per_force_68);
+  widen(old.other_95, &Intervals::inside_95, &Intervals::between_95, &Intervals::beyond_95,
+        &Intervals::above_95, &Intervals::per_force_95);
   return a;
 }
 

@@ -14,7 +14,7 @@
 // The remaining error counts as one more muscle in addition to the roughly three that were left
 // out: it widens or narrows the relative error t, within which two of three muscles are:
 //
-//   t^2 = (3 t^2 + (1 - F_law/F_read)^2)/4
+//   t^2 = (3 t^2 + (1 - F_law/F_read)^2)/4      t = other_68 sqrt((F_max/F)^2 + 4)
 //
 // s and 0.01 come from six muscles of two makes, each predicted from the others
 // (static_across_test.cpp).

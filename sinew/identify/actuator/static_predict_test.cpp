@@ -102,7 +102,7 @@ TEST(Predict, AReadingNarrowsOrWidensTheInterval) {
   const actuator::Actuator a = measured_muscle();
   const double f = force(a, 0.25, 6e5);
   EXPECT_NEAR(reading_factor(a, {0.25, 6e5, f}, units::atmosphere).share, std::sqrt(0.75), 1e-12);
-  const double left = 1 - 1.16 / 1.2;
+  const double left = (1 - 1.16 / 1.2) / std::sqrt(5);
   EXPECT_NEAR(reading_factor(a, {0.25, 6e5, 1.2 * f}, units::atmosphere).share,
               std::sqrt((3 + std::pow(left / 0.02, 2)) / 4), 1e-12);
   const auto inside = [&](double share) {

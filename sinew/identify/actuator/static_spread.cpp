@@ -12,6 +12,7 @@ namespace sinew::identify {
 namespace {
 
 constexpr std::size_t few = 20;        // fewer points give no empirical 95th percentile
+constexpr double widest = 2.5;         // half-width of 95 %, in root mean squares
 constexpr double slack_share = 0.005;  // share of the largest force; less counts as slack
 constexpr double prior_error = 0.08;   // kappa_d0: share of the largest force per rest length
 constexpr int prior_freedom = 1;       // nu_0
@@ -95,7 +96,7 @@ Quantiles quantiles(const HeldOutErrors& errors) {
     return out;
   }
   out.q68 = half_width_of(z, 0.68);
-  out.q95 = half_width_of(z, 0.95);
+  out.q95 = std::min(half_width_of(z, 0.95), widest * std::sqrt(square));
   return out;
 }
 

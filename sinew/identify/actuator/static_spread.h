@@ -9,11 +9,18 @@
 //   q      quantile of |measured - predicted|/sigma_F over points that were not fitted  [-]
 //
 // sigma_F describes how the error varies with the point, and grows outside the data; q scales it
-// to the errors found when parts of the data were left out. There are three kinds of prediction,
-// each with its own q: between the ends of the data, beyond them, and for a muscle of another rest
-// length. No distribution of errors is assumed: the quantiles are those of the points that were
-// left out (split-conformal prediction; for muscles the worst one, as the errors of one muscle are
-// correlated).
+// to the errors found when parts of the data were left out: between the ends of the data, or beyond
+// them. No distribution of errors is assumed: the quantiles are those of the points that were left
+// out (split-conformal prediction), of which a single one must not decide: the half-width for 95 %
+// is at most 2.5 times the root mean square.
+//
+// Errors of one muscle are correlated, and few muscles are left out, so muscles of other rest
+// lengths have no quantile. Their errors grow with the force:
+//
+//   half-width = q rho sqrt(F_max^2 + (2 F)^2)      q = 1 for 68 %, 2.1 for 95 %
+//   rho^2 = mean of (measured - predicted)^2/(F_max^2 + (2 F)^2) of each muscle left out, averaged
+//
+//   F  predicted force [N]   F_max  largest force of that muscle [N]
 //
 // Between two lengths the form of the law has an additional error, common to all pressures, which
 // grows with the distance to the nearest length:
@@ -32,9 +39,8 @@
 //
 // kappa_d is the scale of a normal distribution of errors with a conjugate prior; few muscles have
 // more than two lengths between their ends, and two values give no quantile. Beyond the longest
-// length no interval is given if no mount is within 1 % of the rest length: the bladder's first
-// pull is steepest there, and shorter lengths do not show it (for five muscles only 100 of 201
-// forces were within the 95 % interval).
+// length no interval is given: the bladder's first pull is steepest there, and shorter lengths do
+// not show it (for five muscles only 100 of 201 forces were within the 95 % interval).
 #pragma once
 
 #include <cstddef>
@@ -57,16 +63,15 @@ struct Quantiles {
 // Kind of a prediction.
 enum class PredictionKind { inside, beyond, other_muscle };
 
-// Quantiles of all three kinds, for one law on some data.
+// Errors of all three kinds, for one law on some data.
 struct StaticSpread {
-  Quantiles inside, beyond, other_muscle;
+  Quantiles inside, beyond;
 
   // Half-widths between lengths, per share of the rest length: q_t kappa_d F_max [N].
   double between_68 = 0, between_95 = 0;
 
-  // Largest error of the muscles that were left out, as a share of the muscle's own largest force,
-  // and the greatest |ln| of the ratio to the nearest other rest length [-]. 0: no muscle was left
-  // out.
+  // q rho of the muscles that were left out, and the greatest |ln| of the ratio to the nearest
+  // other rest length [-]. 0: no muscle was left out.
   double other_share_68 = 0, other_share_95 = 0, other_reach = 0;
 };
 
@@ -74,6 +79,10 @@ struct StaticSpread {
 struct LengthError {
   double square = 0, away = 0;
 };
+
+// Weight of the force in the error of a muscle of another rest length, and the half-widths that
+// contain 68 and 95 % in multiples of the root mean square  [-].
+inline constexpr double by_force = 2, other_68 = 1, other_95 = 2.1;
 
 // Writes the half-widths between lengths of a law with these errors at lengths that were left out.
 // `largest_force` is F_max [N].
@@ -97,8 +106,8 @@ HeldOutErrors held_out_errors(const StaticFit& fit, const StaticScales& scales,
 std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
                            std::span<const StaticPoint> points);
 
-// Returns the quantiles of |residual|/sigma_F, of points that have a width. Fewer than 20 points:
-// Student's factor times the root mean square.
+// Returns the quantiles of |residual|/sigma_F, of points that have a width: that of 95 % at
+// most 2.5 times the root mean square. Fewer than 20 points: Student's factor times that.
 Quantiles quantiles(const HeldOutErrors& errors);
 
 // Returns the larger value of each quantile.

@@ -95,8 +95,9 @@ TEST(Spread, BetweenTwoLengthsItIsWidestHalfway) {
   // The file gives approximately the same.
   actuator::Prediction p = prediction_of(found, found.muscles[0]);
   EXPECT_EQ(p.lengths.size(), 7u);
-  EXPECT_NEAR(actuator::force_interval(p, 0.25 * 0.91, 3e5).half_95, half(0), 0.2 * half(0));
-  EXPECT_NEAR(actuator::force_interval(p, 0.25 * 0.925, 3e5).half_95, half(0.5), 0.2 * half(0.5));
+  EXPECT_NEAR(actuator::force_interval(p, 0.25 * 0.91, 3e5, 0).half_95, half(0), 0.2 * half(0));
+  EXPECT_NEAR(actuator::force_interval(p, 0.25 * 0.925, 3e5, 0).half_95, half(0.5),
+              0.2 * half(0.5));
 }
 
 // New measurements of forces between the fitted ones, in 12 rigs: 92 to 98 % are within the 95 %
@@ -127,13 +128,14 @@ TEST(Spread, IntervalsGrowOutsideTheData) {
   const StaticForce inside = half(0.23, 3e5);
   double before = inside.half_95;
   EXPECT_EQ(inside.kind, PredictionKind::inside);
-  for (const double length : {0.255, 0.265, 0.28}) {
-    const StaticForce f = half(length, 3e5);
+  for (const double pressure : {5.8e5, 6.6e5, 8e5}) {
+    const StaticForce f = half(0.23, pressure);
     EXPECT_EQ(f.kind, PredictionKind::beyond);
     EXPECT_GT(f.half_95, before);
     EXPECT_GT(f.half_95, f.half_68);
     before = f.half_95;
   }
+  EXPECT_TRUE(std::isinf(half(0.252, 3e5).half_95));  // beyond the longest
 }
 
 // Each of three muscles of one make is predicted without using it.

@@ -98,9 +98,9 @@ actuator::Actuator without_idle_digits(actuator::Actuator a) {
     *number = with_digits(*number, of_laws);
   actuator::Prediction& p = a.prediction;
   for (double& length : p.lengths) length = with_digits(length, of_laws);
-  for (double* width :
-       {&p.inside_68, &p.inside_95, &p.between_68, &p.between_95, &p.beyond_68, &p.beyond_95,
-        &p.above_68, &p.above_95, &p.other_68, &p.other_95, &p.other_reach})
+  for (double* width : {&p.inside_68, &p.inside_95, &p.per_force_68, &p.per_force_95, &p.between_68,
+                        &p.between_95, &p.beyond_68, &p.beyond_95, &p.above_68, &p.above_95,
+                        &p.other_68, &p.other_95, &p.other_reach})
     *width = with_digits(*width, of_widths);
   // The widest mesh must not exceed the long end.
   a.long_end.length = std::max(a.long_end.length, actuator::shortest_length(a));

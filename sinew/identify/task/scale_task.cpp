@@ -44,8 +44,9 @@ std::string file_of(const ScaleFound& found, const ScaleSettings& s) {
   for (const char* key :
        {"braid.thread_length", "braid.turns", "effectiveness.scale", "prediction.rest_length",
         "prediction.lengths", "prediction.inside_68", "prediction.inside_95",
-        "prediction.between_68", "prediction.between_95", "prediction.beyond_68",
-        "prediction.beyond_95", "prediction.above_68", "prediction.above_95"})
+        "prediction.per_force_68", "prediction.per_force_95", "prediction.between_68",
+        "prediction.between_95", "prediction.beyond_68", "prediction.beyond_95",
+        "prediction.above_68", "prediction.above_95"})
     provenance.given(path + key, source);
   const std::string by_reading =
       fmt::format("{}; times {:.4f} by its reading, {}", source, found.corrected_by, s.reading);
@@ -68,8 +69,11 @@ void put_scaled(const ScaleFound& found, const TextOptions&, std::string& out) {
     put(out, "one reading    reading=\"{:.4g} mm, {:.4g} kPa gauge, FORCE\" corrects it most\n",
         1e3 * p.lengths.back(), 1e-3 * p.highest);
   if (p.inside_95 > 0)
-    put(out, "68 % within    {:.3g} N\n95 % within    {:.3g} N of the law\n",
-        actuator::widest_inside_68(p), actuator::widest_inside_95(p));
+    put(out,
+        "68 % within    {:.3g} N of the law at that force, {:.3g} N at none\n"
+        "95 % within    {:.3g} N of the law at that force, {:.3g} N at none\n",
+        actuator::widest_inside_68(p, found.largest), actuator::widest_inside_68(p, 0),
+        actuator::widest_inside_95(p, found.largest), actuator::widest_inside_95(p, 0));
 }
 
 Json json_of(const ScaleFound& found) {
@@ -80,10 +84,12 @@ Json json_of(const ScaleFound& found) {
            {"largest_force_N", found.largest},
            {"corrected_by", found.corrected_by},
            {"read_at", {{"length_m", p.lengths.back()}, {"gauge_pressure_Pa", p.highest}}}};
-  const double half_68 = actuator::widest_inside_68(p), half_95 = actuator::widest_inside_95(p);
+  const double half_68 = actuator::widest_inside_68(p, found.largest),
+               half_95 = actuator::widest_inside_95(p, found.largest);
   if (!found.remarks.warnings.empty()) out["warnings"] = found.remarks.warnings;
   out["half_68_N"] = half_68 > 0 ? Json(half_68) : Json();
   out["half_95_N"] = half_95 > 0 ? Json(half_95) : Json();
+  out["half_95_at_no_force_N"] = half_95 > 0 ? Json(actuator::widest_inside_95(p, 0)) : Json();
   return out;
 }
 

@@ -147,10 +147,13 @@ void note_prediction(const StaticMuscle& muscle, StaticResult& found) {
       fmt::format("a muscle of {:.4g} mm, from the others: ", 1e3 * muscle.rest_length);
   if (p.inside_95 > 0)
     found.report.notes.push_back(
-        what + fmt::format("68 % of its forces are expected within {:.3g} N of the law, 95 % "
-                           "within {:.3g} N, between {:.4g} and {:.4g} mm",
-                           actuator::widest_inside_68(p), actuator::widest_inside_95(p),
-                           1e3 * p.lengths.front(), 1e3 * p.lengths.back()));
+        what +
+        fmt::format("68 % of its forces are expected within {:.3g} N and {:.2g} % of the law, "
+                    "95 % within {:.3g} N and {:.2g} %, the squares added, between {:.4g} "
+                    "and {:.4g} mm",
+                    actuator::widest_inside_68(p, 0), 100 * p.per_force_68,
+                    actuator::widest_inside_95(p, 0), 100 * p.per_force_95, 1e3 * p.lengths.front(),
+                    1e3 * p.lengths.back()));
   else
     found.report.warnings.push_back(
         what +
