@@ -1,4 +1,4 @@
-"""Sinew: braided pneumatic actuators, their air and valves, and the robots that they move.
+"""Braided pneumatic actuators, their air and valves, and the robots that they move.
 
     import sinew
 
