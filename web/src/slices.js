@@ -27,6 +27,25 @@ export function extremes(values, from, to) {
   return at_low <= at_high ? [low, high] : [high, low];
 }
 
+const block = 256;  // samples of a pair of extremes that is kept
+const kept = new WeakMap();  // pairs of a column's full blocks, by the buffer of its values
+
+// Returns the extremes of each full block, as extremes() does. A column that grows keeps its buffer and its
+// samples, or moves to a larger buffer.
+function pairs_of(values) {
+  if (!kept.has(values.buffer)) kept.set(values.buffer, []);
+  const pairs = kept.get(values.buffer);
+  for (let at = (pairs.length / 2) * block; at + block <= values.length; at += block) pairs.push(...extremes(values, at, at + block));
+  return pairs;
+}
+
+// Returns the extremes of a bucket. Those of a large one come from its blocks: in the view of an hour at full
+// rate, millions of samples would delay each move.
+function of_bucket(values, from, to) {
+  if (to - from < 2 * block || to % block || values.byteOffset) return extremes(values, from, to);
+  return extremes(pairs_of(values), (2 * from) / block, (2 * to) / block);
+}
+
 const in_unit = (value, { scale, offset }) => (value === value ? (value + offset) * scale : null);
 
 export class Slices {
@@ -80,7 +99,7 @@ export class Slices {
     return [x, ...lines.map((i) => {
       const { values } = this.columns[i], line = [];
       for (let b = from; b < to; ++b)
-        for (const v of extremes(values, b * size, Math.min(values.length, (b + 1) * size))) line.push(in_unit(v, units[i]));
+        for (const v of of_bucket(values, b * size, Math.min(values.length, (b + 1) * size))) line.push(in_unit(v, units[i]));
       return line;
     })];
   }

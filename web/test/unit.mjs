@@ -206,6 +206,21 @@ test('a slice is every sample in view and one on either side, from afar every pe
   assert.equal(Math.max(...drawn), Math.max(...values));
 });
 
+test('an hour at full rate is moved without delay, and its slices are those of every sample', () => {
+  const random = random_from(9), time = Float64Array.from({ length: 7200000 }, (_, i) => i / 2000);
+  const values = Float32Array.from(time, () => (random() < 0.001 ? NaN : random()));
+  const short = new Slices([{ time, values: values.subarray(0, 5000000) }]), slices = new Slices([{ time, values }]);
+  short.of([0, 3600], 1200, plain);  // the column grows afterwards
+  const [, drawn] = slices.of([0, 3600], 1200, plain), size = bucket_size(values.length, 1200);
+  const all = [];
+  for (let at = 0; at < values.length; at += size) all.push(...extremes(values, at, Math.min(values.length, at + size)));
+  assert.deepEqual(drawn, all);
+  const start = performance.now();
+  for (let i = 0; i < 10; ++i) slices.of([i, 3500 + i], 1200, plain);
+  const took = (performance.now() - start) / 10;
+  assert.ok(took < 10, `${took} ms for a column; a page draws some ten at a time`);
+});
+
 test('columns of different clocks meet without a sample that is not theirs', () => {
   const slow = { time: Float64Array.of(0, 0.2, 0.4), values: Float32Array.of(1, NaN, 3) };
   const fast = { time: Float64Array.of(0.1, 0.2, 0.3), values: Float32Array.of(4, 5, 6) };
