@@ -4,6 +4,7 @@ import { read_samples } from './samples.js';
 import { Scene } from './scene.js';
 import { StandScene } from './stand.js';
 import * as parts from './stand_parts.js';
+import { theme_of } from './theme.js';
 import { Units } from './units.js';
 
 class MachineIcon extends Scene {
@@ -37,14 +38,17 @@ const of_one = (value) => ({ time: Float64Array.of(0), values: Float32Array.of(v
 const curve = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 96 96" fill="none"><path d="M12 16V80H88" stroke="#8a95a5" stroke-width="3"/>
 <path d="M16 48C22 12 28 12 34 48S46 80 52 48S62 22 68 48S78 66 84 48" stroke="#2f86c5" stroke-width="4"/></svg>`;
 
-// Returns the picture as the address of an image. `found`: what the program sends (sinew/report/page/picture.h).
+// Returns the picture on light and on dark as addresses of images. `found`: what the program sends (sinew/report/page/picture.h).
 // `canvas`: any canvas of the page, on which it is drawn.
-export async function icon_of(found, canvas) {
+export async function icons_of(found, canvas) {
   const units = new Units(found.atmosphere ?? 101325);
   let drawing = null;
   if (found.stand) drawing = new StandIcon(canvas, some_stand, [of_one(0.2), of_one(0.03)], units);
   else if (found.scene) drawing = new MachineIcon(canvas, found.scene, await read_samples(found.samples, found.data), units, 0);
-  if (!drawing) return `data:image/svg+xml;charset=utf-8,${encodeURIComponent(curve)}`;
-  drawing.draw(0);
-  return canvas.toDataURL();
+  return ['light', 'dark'].map((name) => {
+    if (!drawing) return `data:image/svg+xml;charset=utf-8,${encodeURIComponent(curve)}`;
+    drawing.theme = theme_of(name);
+    drawing.draw(0);
+    return canvas.toDataURL();
+  });
 }

@@ -1,6 +1,6 @@
 // List of the runs in a folder, served by `sinew view`: search runs, open one, compare several.
 import { Appearance } from './appearance.js';
-import { icon_of } from './icon.js';
+import { icons_of } from './icon.js';
 import { by_id, element, on_click, start_page } from './page.js';
 import { Units } from './units.js';
 
@@ -17,8 +17,9 @@ class RunList {
     by_id('search').addEventListener('input', () => this.search());
     on_click('compare', () => (location.href = `compare/${this.ticked.join(',')}`));
     on_click('clear', () => this.clear());
-    new Appearance(new Units(0), { on_units() {}, on_colors: () => this.runs.forEach((run) => run.recolor()), on_print() {} });
+    new Appearance(new Units(0), { on_units() {}, on_colors() {}, on_print() {} });
     this.show_ticked();
+    this.load_pictures();
   }
 
   item(run) {
@@ -27,7 +28,7 @@ class RunList {
     const facts = [run.date, run.duration_s === undefined ? 'not finished' : `${run.duration_s.toFixed(2)} s`,
                    run.robot && `robot ${run.robot}`, run.seed && `seed ${run.seed}`].filter(Boolean).join(' · ');
     const root = element('li', { 'data-run': run.run },
-      box, this.image(run),
+      box, ...this.images(run),
       element('div', {}, element('h2', {}, element('a', { href: `run/${run.run}` }, title)),
         run.about ? element('p', {}, run.about) : null,
         element('p', { class: 'quiet' }, facts), element('p', { class: 'quiet' }, run.folder)));
@@ -35,21 +36,27 @@ class RunList {
     return { run, root, box, text: `${title} ${run.about} ${facts} ${run.folder}`.toLowerCase() };
   }
 
-  // Returns the picture of a run, which is loaded when it comes into the window.
-  image(run) {
-    const image = element('img', { alt: '', width: 96, height: 96 });
+  // Returns the picture of a run on light and on dark, of which the page shows one. Both are loaded once,
+  // when the run comes into the window or load_pictures() reaches it.
+  images(run) {
+    const images = ['light', 'dark'].map((name) => element('img', { class: `on-${name}`, alt: '', width: 96, height: 96 }));
     const load = async () => {
       const reply = await fetch(`picture/${run.run}`);
-      image.src = await icon_of(reply.ok ? await reply.json() : {}, by_id('sheet'));
+      const icons = await icons_of(reply.ok ? await reply.json() : {}, by_id('sheet'));
+      images.forEach((image, i) => (image.src = icons[i]));
     };
-    const seen = new IntersectionObserver(([entry]) => {
-      if (!entry.isIntersecting) return;
-      seen.disconnect();
-      load();
-    });
-    seen.observe(image);
-    run.recolor = () => image.src && load();
-    return image;
+    run.load = () => (run.loading ??= load().catch(() => {}));  // without a picture where the program has ended
+    run.seen = new IntersectionObserver((entries) => entries.some((e) => e.isIntersecting) && run.load());
+    images.forEach((image) => run.seen.observe(image));
+    return images;
+  }
+
+  // Loads the pictures that were not in the window, one after the other: a print shows all.
+  async load_pictures() {
+    for (const run of this.runs) {
+      await run.load();
+      run.seen.disconnect();
+    }
   }
 
   search() {

@@ -10,11 +10,14 @@ export function page_theme() {
 }
 
 // Returns the colors of a picture for print: the light ones.
-export function paper_theme() {
+export const paper_theme = () => ({ ...theme_of('light'), paper: '#fff' });
+
+// Returns the colors of the theme 'light' or 'dark', whichever the page has now.
+export function theme_of(name) {
   const root = document.documentElement, before = root.dataset.theme;
-  root.dataset.theme = 'light';
+  root.dataset.theme = name;
   try {
-    return { ...page_theme(), paper: '#fff' };
+    return page_theme();
   } finally {
     if (before) root.dataset.theme = before;
     else delete root.dataset.theme;

@@ -31,9 +31,24 @@ test('runs are listed with picture, date and title, found, and compared', async 
     assert.ok(titles.includes('Walking, test 1') && titles.includes('<b>Broken & bad</b>'), titles.join());
     for (const li of await page.locator('#list li').all()) {
       await li.scrollIntoViewIfNeeded();
-      await page.waitForFunction((i) => i.complete && i.naturalWidth > 0, await li.locator('img').elementHandle());
+      await page.waitForFunction((i) => i.complete && i.naturalWidth > 0, await li.locator('img:visible').elementHandle());
       assert.match(await li.textContent(), /20\d\d-\d\d-\d\d \d\d:\d\d/);
     }
+    // Either theme has its own picture, which is not fetched again.
+    const requests = [];
+    page.on('request', (r) => requests.push(r.url()));
+    const shown_pictures = () => page.locator('#list img:visible').evaluateAll((all) => all.map((i) => i.src));
+    const light = await shown_pictures();
+    await page.locator('#theme').click();
+    const dark = await shown_pictures();
+    assert.equal(dark.length, light.length);
+    assert.ok(dark.some((src, i) => src !== light[i]));
+    await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+    assert.deepEqual(await shown_pictures(), light, 'a print is light');
+    await page.evaluate(() => dispatchEvent(new Event('afterprint')));
+    assert.deepEqual(await shown_pictures(), dark);
+    await page.locator('#theme').click();
+    assert.deepEqual(requests.filter((url) => url.startsWith('http')), []);
     await page.evaluate(() => scrollTo(0, 0));
     await picture(page, 'runs');
 
@@ -61,6 +76,8 @@ test('runs are listed with picture, date and title, found, and compared', async 
     await watch(run, async (page) => {
       assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width);
       await picture(page, `runs-${width}-${colorScheme}`);
+      // A print has the pictures of runs that were never in the window, too.
+      await page.waitForFunction(() => [...document.querySelectorAll('#list img')].every((i) => i.naturalWidth > 0));
       if (width === 390) return;
       const pdf = await page.pdf({ format: 'A4' });
       assert.ok(pdf.length > 5000);
