@@ -133,6 +133,8 @@ export class Scene {
     const ctx = canvas.getContext('2d');
     ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
     ctx.clearRect(0, 0, width, height);
+    const { above, margin } = this.room;
+    if (height <= above + margin || width <= 2 * margin) return;  // no room for a drawing
     const view = this.place(ctx, width, height, t);
     this.draw_world(ctx, view, t);
     this.draw_paths(ctx, view, t);

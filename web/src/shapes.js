@@ -57,7 +57,8 @@ export function table(ctx, view, height, units, theme, step = null) {
     ticks.push(x);
   }
   stroke(ctx, view, theme['ground-edge'], 1);
-  for (const x of step ? [] : ticks)
+  const half = 24 * view.px;  // half a number's width, which the edge would cut
+  for (const x of step ? [] : ticks.filter((x) => x > view.left + half && x < view.right - half))
     text(ctx, view, `${+(x * scale).toFixed(3)} ${label}`.replace('-', '−'), x, height - 17 * view.px, theme.quiet, theme);
 }
 

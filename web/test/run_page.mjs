@@ -38,6 +38,16 @@ test('the animation advances, pauses and steps', () => with_page('walk-test-1', 
   assert.equal(await time_of(page), await page.evaluate(() => window.sinew.run.duration));
 }));
 
+test('a drawing without room is empty', () => {
+  const at_heights = (name) => with_page(name, async (page) => {
+    for (const height of [8, 31, 32, 40]) {
+      await page.evaluate((h) => { document.getElementById('scene').style.cssText = `height: ${h}px; min-height: 0`; }, height);
+      await page.evaluate(() => window.sinew.page.scene.draw(1));  // throws nothing
+    }
+  });
+  return at_heights('walk-test-1').then(() => at_heights('feedback'));
+});
+
 test('speed is relative to real time', () => with_page('walk-test-1', async (page) => {
   for (const speed of ['0.25', '4']) {
     await seek(page, 1);
