@@ -120,7 +120,7 @@ export class ComparisonTables {
         ...values.map((v) => (v === null ? cell('–', 'quiet') : long_cell(v)))),
     }));
     const root = by_id('parameters');
-    root.append(heading('Parameters', rows.length ? `${rows.length} differ, resolved.toml, SI` : 'all equal'));
+    root.append(heading('Parameters', rows.length ? `${rows.length} differ, resolved.toml` : 'all equal'));
     if (!rows.length) return;
     const list = table('Parameters that differ', ['key', ...this.data.runs.map((r, i) => letter_of(i))], rows.map((r) => r.row));
     root.append(rows.length > 12 ? searched(list, rows, 'Search keys and values') : list);
@@ -137,6 +137,7 @@ export class ComparisonTables {
     const sorted = by_size(this.channel_rows);
     const list = table('Differences of channels', heads, sorted.map((r) => r.row));
     list.classList.add('only-differing');
+    list.classList.toggle('of-several', this.others.length > 1);
     const same = this.data.channels.filter((c) => c.differences.every((d) => !d || d.same)).length;
     by_id('channels').append(
       heading('Channels', `${this.channel_rows.length} compared, ${same} with equal samples; the bar is rms divided by the range of values`),

@@ -71,7 +71,7 @@ export class Panel {
 
   readout(line, i) {
     const value = element('span', { class: 'value' });
-    return { value, button: button({ class: `line ${line.style}`, 'aria-pressed': String(this.shown[i]), title: line.topic }, () => this.toggle(i),
+    return { value, button: button({ class: `line ${line.style}${line.dash?.[0] <= 2 ? ' dotted' : ''}`, 'aria-pressed': String(this.shown[i]), title: line.topic }, () => this.toggle(i),
       element('span', { class: 'mark' }), element('span', {}, line.label), value) };
   }
 

@@ -32,7 +32,7 @@ class StudyPage {
     by_id('side').append(this.side.root);
     by_id('table').append(this.table.root);
     this.head();
-    this.appearance = new Appearance(new Units(101325), { on_units: () => {}, on_colors: () => this.redraw(), on_print: () => this.draw() });
+    this.appearance = new Appearance(new Units(101325), { on_units: () => {}, on_colors: () => this.draw(), on_print() {} });
     this.controls();
     this.arrange_choices();
     this.draw();

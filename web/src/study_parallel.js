@@ -26,7 +26,7 @@ export class Parallel {
     this.root = element('section', { class: 'study-view', id: 'parallel' },
       element('header', {}, element('h2', {}, this.title), this.toggles, picture_menu(page, this)),
       element('div', { class: 'parallel-scroll' }, this.inner),
-      element('p', { class: 'hint' }, 'Drag along an axis to select a range, click the axis to remove it. With the keyboard, ↑ ↓ move the lower end, Shift ↑ ↓ the upper end, Delete removes it. ',
+      element('p', { class: 'hint no-print' }, 'Drag along an axis to select a range, click the axis to remove it. With the keyboard, ↑ ↓ move the lower end, Shift ↑ ↓ the upper end, Delete removes it. ',
         'Click a line to choose its row.'));
   }
 

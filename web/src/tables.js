@@ -136,7 +136,7 @@ export function show_parameters(run, file = 'resolved.toml') {
       cell([range, uncertainty && `± ${uncertainty}`].filter(Boolean).join(', '), 'quiet'),
       cell(source, 'source')),
   }));
-  const list = table('Parameters', ['key', 'value, SI', '', 'range', 'source'], rows.map((r) => r.row));
+  const list = table('Parameters', ['key', 'value', '', 'range', 'source'], rows.map((r) => r.row));
   by_id('parameters').append(heading('Parameters', `${rows.length} values, ${file}`),
     searched(list, rows, 'Search keys, values and sources'));
 }

@@ -268,9 +268,15 @@ test('dark, on paper, on a phone', async () => {
     await page.locator('#theme').click();
     await settle(page);
     assert.notEqual(await drawn(page, 'scatter'), light);
+    // The drawings are light before the browser prints, which draws no further frame.
+    const print_begins = () => { dispatchEvent(new Event('beforeprint')); return document.getElementById('scatter-canvas').toDataURL(); };
+    assert.equal(await page.evaluate(print_begins), light);
     await page.emulateMedia({ media: 'print' });
     assert.ok(await page.locator('#scatter-canvas').isVisible());
-    assert.equal(await page.locator('.filter-bar').isVisible(), false);
+    assert.deepEqual(await Promise.all(['#words', '#feasible', '#chosen', '#ramp-colors'].map((id) => page.locator(id).isVisible())),
+      [false, false, false, true], 'a print has the key of its colors, and no controls');
+    // Bars and keys are backgrounds, which browsers leave out by default.
+    assert.equal(await page.evaluate(() => getComputedStyle(document.querySelector('.shares .share')).printColorAdjust), 'exact');
   });
   await study('walk', async (page) => {
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
