@@ -6,6 +6,9 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <optional>
+#include <set>
+#include <sstream>
 #include <string>
 
 #include "tests/places.h"
@@ -116,10 +119,50 @@ TEST(ShownUnits, ChoicesWithoutASetStandOnTopOfWhatWouldHold) {
   EXPECT_EQ(read_shown_units("thesis", below).units.text(), "thesis") << "a set begins anew";
 }
 
+std::string docs_page(const std::string& name) {
+  std::ifstream file(sinew::test::source_dir() + "/docs/reference/" + name);
+  return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+std::string padded(std::string_view text, std::size_t width) {
+  return std::string(text) + std::string(width - text.size(), ' ');
+}
+
+// `sinew help units` has a row for each quantity whose units differ between the sets.
+TEST(ShownUnits, AreThoseOfTheHelp) {
+  const std::string help = docs_page("help.md");
+  for (const ShownQuantity& q : shown_quantities) {
+    const std::string row = "\n" + padded(q.name, 21) + padded(q.si.usual, 13) +
+                            padded(q.thesis.usual, 17) + std::string(q.metric.usual) + "\n";
+    const bool differ = q.si.usual != q.thesis.usual || q.si.usual != q.metric.usual;
+    EXPECT_EQ(help.find(row) != help.npos, differ) << "docs/reference/help.md: " << row;
+  }
+}
+
+// `sinew help units` lists every unit once, with others of its dimension.
+TEST(ShownUnits, ThatAreReadAreThoseOfTheHelp) {
+  const std::string help = docs_page("help.md");
+  const std::size_t begin = help.find("```text\n", help.find("Units that are read:")) + 8;
+  std::istringstream rows(help.substr(begin, help.find("```", begin) - begin));
+  std::set<std::string> listed;
+  for (std::string row; std::getline(rows, row);) {
+    std::istringstream names(row.substr(19));
+    std::optional<Dimension> dimension;
+    for (std::string name; names >> name;) {
+      if (name.ends_with(',')) name.pop_back();
+      const auto unit = find_unit(name);
+      ASSERT_NE(unit, known_units.end()) << name;
+      EXPECT_TRUE(listed.insert(name).second) << name << " twice";
+      EXPECT_EQ(unit->dimension, dimension.value_or(unit->dimension)) << row;
+      dimension = unit->dimension;
+    }
+  }
+  EXPECT_EQ(listed.size(), known_units.size() - 1) << "all but %, which the text explains";
+}
+
 // docs/reference/units.md has the same table, row for row.
 TEST(ShownUnits, AreThoseOfTheDocs) {
-  std::ifstream file(sinew::test::source_dir() + "/docs/reference/units.md");
-  const std::string docs(std::istreambuf_iterator<char>(file), {});
+  const std::string docs = docs_page("units.md");
   const auto cell = [](const ShownChoice& c) {
     std::string out;
     for (const std::string_view unit : {c.small, c.usual, c.large})
