@@ -90,9 +90,10 @@ def check(file: _Path, options: Options) -> None:
 def browser_file() -> str:
     """Return the file of the browser that draws the frames. Raises RuntimeError if there is no such program."""
     named = os.environ.get("CHROMIUM")
-    found = [file for file in map(shutil.which, [named] if named else _BROWSERS) if file]
-    if found:
-        return found[0]
+    for name in [named] if named else _BROWSERS:
+        file = shutil.which(name)
+        if file:
+            return file
     if named:
         raise RuntimeError(
             f'CHROMIUM: found "{named}", which is no program; expected the file of Chromium or Chrome, which draws '
