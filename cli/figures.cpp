@@ -121,8 +121,7 @@ run::DrawingRequest drawing_of(const FiguresOptions& options) {
 
 // Returns the run's own folder, or one below --output where there are several runs.
 fs::path folder_of(const FiguresOptions& request, const std::string& named) {
-  const fs::path source =
-      run::is_muscle_file(named) ? fs::path(named) : run::recorded_run(named).log;
+  const fs::path source = run::is_muscle_file(named) ? fs::path(named) : run::run_files(named).log;
   if (request.out.empty()) return source.parent_path() / run::figures_name;
   if (request.runs.size() == 1) return request.out;
   return fs::path(request.out) / report::file_name_of(named);
@@ -209,7 +208,7 @@ ExitCode draw_thesis(const FiguresOptions& request) {
 void add_figures(CLI::App& app, Action& action) {
   auto options = std::make_shared<FiguresOptions>();
   CLI::App& sub = subcommand(
-      app, "figures", "Draw figures for print, with the CSV behind each: of runs or the thesis",
+      app, "figures", "Draw figures of runs or of the thesis for print, each with its data as CSV",
       "sinew figures runs/walk-test-1/1 --format pdf --width \"84 mm\" --units metric\n"
       "  sinew figures mine runs/arm/1 --label measured --label simulated -o figures\n"
       "  sinew figures muscle.toml --format pdf\n"

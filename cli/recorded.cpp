@@ -113,7 +113,7 @@ ExitCode report_study(const ReportOptions& options) {
 
 ExitCode report_run(const ReportOptions& options) {
   const Messages messages(options.quiet);
-  const run::RecordedRun recorded = run::recorded_run(options.runs[0]);
+  const run::RunFiles recorded = run::run_files(options.runs[0]);
   const fs::path out =
       options.out.empty() ? recorded.log.parent_path() / run::report_name : fs::path(options.out);
   run::refuse_to_overwrite(out, options.force, {recorded.log, recorded.resolved, options.machine});
@@ -131,7 +131,7 @@ struct CompareOptions : Flags {
 };
 
 report::ComparisonText shown_as(const CompareOptions& options) {
-  const fs::path first = run::recorded_run(options.runs.front()).resolved;
+  const fs::path first = run::run_files(options.runs.front()).resolved;
   return {.units = chosen_units(options.units, units::UnitSet::thesis, first).units,
           .all = options.all,
           .width = width_of_output(),
@@ -145,7 +145,7 @@ void refuse_outputs(const CompareOptions& options) {
   if (!options.out.empty()) report::require_page(options.out);
   std::vector<fs::path> inputs;
   for (const std::string& named : options.runs) {
-    const run::RecordedRun run = run::recorded_run(named);
+    const run::RunFiles run = run::run_files(named);
     inputs.insert(inputs.end(), {run.log, run.resolved});
   }
   for (const std::string& out : {options.out, options.residuals})
@@ -165,7 +165,7 @@ ExitCode compare_runs(const CompareOptions& options) {
     messages.note(options.residuals);
   }
   if (!options.out.empty()) {
-    const fs::path first = run::recorded_run(options.runs.front()).resolved;
+    const fs::path first = run::run_files(options.runs.front()).resolved;
     const std::string page =
         report::page(comparison, chosen_units(options.units, units::UnitSet::si, first).units);
     write(options.out, page, messages);
@@ -198,7 +198,7 @@ std::vector<std::string> chosen_topics(const ExportOptions& options, const signa
 }
 
 // Writes line by line, since the text of a long run is longer than memory.
-void put_csv(const run::RecordedRun& run, const ExportOptions& options, signals::Table table) {
+void put_csv(const run::RunFiles& run, const ExportOptions& options, signals::Table table) {
   if (options.derived) {
     const config::Node root = config::compose(run::machine_of(run, options.machine).string());
     signals::Table derived = analysis::derive(table, analysis::read_machine(root));
@@ -213,7 +213,7 @@ void put_csv(const run::RecordedRun& run, const ExportOptions& options, signals:
   std::cout.flush();
 }
 
-void put(const run::RecordedRun& run, const ExportOptions& options, signals::Table table) {
+void put(const run::RunFiles& run, const ExportOptions& options, signals::Table table) {
   if (options.format == "csv") return put_csv(run, options, std::move(table));
   const std::string file = run::machine_of(run, options.machine).string();
   const experiment::Experiment e = run::buildable_robot(config::compose(file), file);
@@ -228,7 +228,7 @@ ExitCode export_run(const ExportOptions& options) {
   if (options.format != "csv" && (!options.channels.empty() || options.derived))
     config::fail({"--format", 0, 0}, "", config::in_quotes(options.format),
                  "csv, for --channels and --derived");
-  const run::RecordedRun run = run::recorded_run(options.run);
+  const run::RunFiles run = run::run_files(options.run);
   if (!options.out.empty())
     run::refuse_to_overwrite(options.out, options.force, {run.log, run.resolved, options.machine});
 
@@ -258,7 +258,7 @@ std::string film_page(const FilmOptions& options, const run::Notices& notices) {
   if (options.runs.size() > 1)
     return report::page(
         run::compare_runs(options.runs, options.alignment.align_options(), {}, notices));
-  return run::page_of(run::recorded_run(options.runs.front()), options.machine, notices);
+  return run::page_of(run::run_files(options.runs.front()), options.machine, notices);
 }
 
 std::vector<std::string> film_arguments(const FilmOptions& o) {

@@ -365,8 +365,7 @@ ExitCode report_analysis(const AnalyzeOptions& options, const Messages& messages
   const std::string json = to_json(summary);
   if (!options.out.empty()) {
     run::refuse_to_overwrite(options.out, options.force,
-                             {run::recorded_run(options.run).log, options.machine},
-                             run::summary_name);
+                             {run::run_files(options.run).log, options.machine}, run::summary_name);
     run::write_file(options.out, json);
   }
   if (options.verdicts) {
@@ -381,7 +380,7 @@ ExitCode report_analysis(const AnalyzeOptions& options, const Messages& messages
 
 ExitCode analyze_run(const AnalyzeOptions& options) {
   const Messages messages(options.quiet);
-  const run::RecordedRun run = run::recorded_run(options.run);
+  const run::RunFiles run = run::run_files(options.run);
   run::require_finished(run.log);
   const config::Node file = config::compose(run::machine_of(run, options.machine).string());
   const signals::Table table = log::read(run.log);

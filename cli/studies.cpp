@@ -109,7 +109,7 @@ void add_keeping(CLI::App& sub, RunsOptions& options) {
   sub.add_option("--threads", options.threads, "runs at a time; default: one per processor")
       ->transform(between(1, 1024));
   sub.add_option("--results", options.results,
-                 "FILE: study file with each row once its run is done; these are not run again");
+                 "FILE: study file that stores each finished row; stored rows are not run again");
 }
 
 // --range, --set, --report, --units, --allow-unreachable, --threads and --results.
@@ -118,7 +118,7 @@ void add_runs(CLI::App& sub, tune::Study& study, RunsOptions& options) {
             "KEY=RANGE: range to sample, from:to unit; \"log\" or \"whole\" may follow the unit");
   add_words(sub, "--report", study.report,
             "KEYS: keys of summary.json with commas, key or key [unit]; default: reported ones");
-  add_units(sub, study.units, "figures that name none (default: si); --json is in SI");
+  add_units(sub, study.units, "figures without a unit of their own (default: si); --json is in SI");
   add_sets(sub, study.set);
   sub.add_flag("--allow-unreachable", study.allow_unreachable, "accept unreachable foot paths");
   add_keeping(sub, options);

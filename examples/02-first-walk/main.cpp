@@ -24,7 +24,7 @@ void print(const analysis::Summary& summary, const char* key) {
 
 // All figures can be computed again from the log.
 bool same_from_the_log(const std::filesystem::path& folder, const analysis::Summary& first) {
-  const run::RecordedRun kept = run::recorded_run(folder);
+  const run::RunFiles kept = run::run_files(folder);
   const analysis::Machine machine = analysis::read_machine(config::compose(kept.resolved.string()));
   const analysis::Summary again = analysis::summarize(log::read(kept.log), machine);
   return analysis::to_json(again) == analysis::to_json(first);

@@ -89,7 +89,7 @@ std::string film_page(const Names& runs, const py::object& path, const std::stri
   run::require_folder_of(file);
   const py::gil_scoped_release unlocked;
   report::require_page("the film");
-  return runs.size() == 1 ? run::page_of(run::recorded_run(runs[0]), "")
+  return runs.size() == 1 ? run::page_of(run::run_files(runs[0]), "")
                           : report::page(run::compare_runs(runs, align_options));
 }
 
@@ -109,7 +109,7 @@ void bind_figures(py::module_& m) {
       py::arg("units") = "", py::arg("width") = "", py::arg("height") = "", py::arg("font") = "",
       py::arg("title") = "", py::arg("start") = py::none(), py::arg("stop") = py::none(),
       py::arg("force") = false,
-      "Draws the figures of a run into a folder, for print, with the CSV behind each; of several\n"
+      "Draws the figures of a run into a folder, for print, each with its data as CSV; of several\n"
       "runs in the same axes, which `names` call in the legend. `align` aligns the others with "
       "the\n"
       "first run: start, event or correlation; `fit_clock` takes out their clocks' rates, too.\n"

@@ -121,7 +121,7 @@ const std::vector<double>& Recording::time(const std::string& channel) {
 
 Pointer read_run(const std::string& named) {
   auto out = std::make_shared<Recording>();
-  const run::RecordedRun run = run::recorded_run(named);
+  const run::RunFiles run = run::run_files(named);
   run::require_finished(run.log);
   out->resolved = config::compose(run::machine_of(run, "").string());
   out->table = log::read(run.log);

@@ -46,7 +46,7 @@ void check_log(const std::filesystem::path& file, Finding& out) {
 }
 
 void check_run(const std::filesystem::path& folder, Finding& out) {
-  const run::RecordedRun run = run::recorded_run(folder);
+  const run::RunFiles run = run::run_files(folder);
   check_log(run.log, out);
   add(experiment::load_machine_file(run::machine_of(run, "")).experiment.warnings, out.warnings);
 }

@@ -108,7 +108,7 @@ void RunsPages::find_new_runs() {
 std::string RunsPages::entry_of(std::size_t run) {
   const fs::path folder = folder_of(runs_[run]);
   std::error_code gone;
-  const fs::file_time_type written = fs::last_write_time(run::recorded_run(runs_[run]).log, gone);
+  const fs::file_time_type written = fs::last_write_time(run::run_files(runs_[run]).log, gone);
   ListEntry& entry = entries_[run];
   if (entry.written == written && !entry.json.empty()) return entry.json;
   const Json summary = summary_in(folder);
@@ -145,11 +145,11 @@ Reply RunsPages::list() {
 }
 
 Reply RunsPages::page_of_run(std::size_t run) const {
-  return {200, run::page_of(run::recorded_run(runs_[run]), machine_)};
+  return {200, run::page_of(run::run_files(runs_[run]), machine_)};
 }
 
 Reply RunsPages::picture_of(std::size_t run) const {
-  const run::RecordedRun recorded = run::recorded_run(runs_[run]);
+  const run::RunFiles recorded = run::run_files(runs_[run]);
   config::Node resolved;
   try {
     if (fs::exists(recorded.resolved)) resolved = config::parse_file(recorded.resolved.string());
@@ -211,7 +211,7 @@ Served served(const std::string& what, const std::string& machine, run::Notices 
     if (!what.empty()) pages->list_first();
     return of_runs(std::move(pages));
   }
-  (void)run::page_of(run::recorded_run(what), machine);  // throws before the server starts
+  (void)run::page_of(run::run_files(what), machine);  // throws before the server starts
   return of_runs(std::make_shared<RunsPages>("", std::vector<fs::path>{what}, machine));
 }
 

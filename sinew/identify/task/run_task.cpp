@@ -133,8 +133,8 @@ struct RecordedMachine {
   signals::Table recorded;
   DrivenRun driven;
 
-  RecordedMachine(const std::string& folder, const run::RecordedRun& run,
-                  const std::string& instead, const std::vector<std::string>& sets)
+  RecordedMachine(const std::string& folder, const run::RunFiles& run, const std::string& instead,
+                  const std::vector<std::string>& sets)
       : name(folder),
         file(run::machine_of(run, instead).string()),
         root(config::compose(file, sets)),
@@ -225,7 +225,7 @@ void add_json(const RunFitResult& result, std::span<const Report> score, Json& o
 }  // namespace
 
 RunFitFound find(const SourceList&, const RunFitSettings& settings) {
-  RecordedMachine run(settings.run, run::recorded_run(settings.run), settings.machine,
+  RecordedMachine run(settings.run, run::run_files(settings.run), settings.machine,
                       all_sets(settings));
   const RunFitOptions options = options_of(settings, run.machine);
   if (options.from >= run.driven.duration())
@@ -234,8 +234,8 @@ RunFitFound find(const SourceList&, const RunFitSettings& settings) {
                  "\"0 s\"");
   std::optional<RecordedMachine> other;
   if (!settings.score.empty()) {  // tested before the fit, which is slow
-    const run::RecordedRun its = run::recorded_run(settings.score);
-    if (std::filesystem::equivalent(its.log, run::recorded_run(settings.run).log))
+    const run::RunFiles its = run::run_files(settings.score);
+    if (std::filesystem::equivalent(its.log, run::run_files(settings.run).log))
       config::fail({"score", 0, 0}, "", config::in_quotes(settings.score) + ", which is fitted",
                    "a run that nothing is fitted to", "another one, or hold_out=\"100 %\"");
     const bool described = std::filesystem::exists(its.resolved);

@@ -438,7 +438,7 @@ void fields(Visitor& v, RunFitSettings& s) {
               "1"},
              s.hold_out);
   v.file({"score",
-          "another run of the machine, whose valve commands drive what was identified; reports "
+          "another run of the machine: its valve commands drive the identified machine; reports "
           "rms, nrmse and correlation"},
          s.score);
   v.quantity(Setting{"from", "time in the run before which nothing is compared", "s",

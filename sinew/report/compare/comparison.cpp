@@ -122,7 +122,7 @@ analysis::Clock clock_of(ComparedRun& run, const AlignOptions& options, const Ba
 }
 
 // Analyses a run and aligns it with `first`, in which the start of the first run's sequence is set.
-ComparedRun opened(RecordedRun&& recorded, const AlignOptions& options, Base& first) {
+ComparedRun opened(NamedRun&& recorded, const AlignOptions& options, Base& first) {
   ComparedRun run;
   run.label = std::move(recorded.label);
   run.logged = std::move(recorded.logged);
@@ -186,14 +186,14 @@ std::string_view to_text(Align align) {
   return "correlation";
 }
 
-Comparison compare(std::vector<RecordedRun> runs, const AlignOptions& options) {
+Comparison compare(std::vector<NamedRun> runs, const AlignOptions& options) {
   Comparison out{.align = options.by, .clocks_fitted = options.fit_clock};
   out.runs.reserve(runs.size());  // the pointer to the first run stays valid
   std::vector<signals::Table*> tables;
-  for (RecordedRun& run : runs) tables.push_back(&run.logged);
+  for (NamedRun& run : runs) tables.push_back(&run.logged);
   add_perfect_sensors(tables);
   Base first;
-  for (RecordedRun& run : runs) {
+  for (NamedRun& run : runs) {
     out.runs.push_back(opened(std::move(run), options, first));
     first.run = &out.runs.front();
   }

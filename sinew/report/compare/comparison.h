@@ -51,8 +51,8 @@ struct AlignOptions {
       std::numeric_limits<double>::infinity();  // largest shift of the search [s]
 };
 
-// A recorded run.
-struct RecordedRun {
+// A recorded run with its name in the comparison.
+struct NamedRun {
   std::string label;      // name in the comparison
   signals::Table logged;  // recorded channels
   config::Node resolved;  // resolved.toml
@@ -101,7 +101,7 @@ struct Comparison {
 
 // Compares two runs or more. Throws config::Error for a resolved.toml that cannot be read, for runs
 // without a common channel, and with the reason if a run cannot be aligned with the first one.
-Comparison compare(std::vector<RecordedRun> runs, const AlignOptions& options);
+Comparison compare(std::vector<NamedRun> runs, const AlignOptions& options);
 
 // Leaves only the channels of these topics.
 void keep(Comparison& comparison, const std::set<std::string>& topics);

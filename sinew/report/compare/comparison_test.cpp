@@ -33,7 +33,7 @@ void add(double what, signals::Column& to) {
 
 Comparison two(signals::Table a, signals::Table b, const std::vector<std::string>& sets = {},
                Align align = Align::start) {
-  std::vector<RecordedRun> runs;
+  std::vector<NamedRun> runs;
   runs.push_back({"one", std::move(a), resolved()});
   runs.push_back({"other", std::move(b), resolved(sets)});
   return compare(std::move(runs), align);
@@ -176,7 +176,7 @@ TEST(Comparison, KeepsBothColumnsWhereASumWouldNotDo) {
 
 TEST(Comparison, ShowsTheFootAsAllRunsKnowIt) {
   const auto foot = [](bool third_knows) {
-    std::vector<RecordedRun> runs;
+    std::vector<NamedRun> runs;
     for (int i = 0; i < 3; ++i) {
       signals::Table t = table();
       signals::Series truth = *t.find("/desired/foot/position");

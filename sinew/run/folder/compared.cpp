@@ -46,7 +46,7 @@ std::vector<std::string> labels_of(const std::vector<std::string>& runs) {
 }
 
 // Returns the description of the run, from its folder or from the log itself.
-config::Node resolved_of(const RecordedRun& run) {
+config::Node resolved_of(const RunFiles& run) {
   if (fs::exists(run.resolved)) return config::parse_file(run.resolved.string());
   for (const auto& [key, value] : log::read_metadata(run.log))
     if (key == "resolved") return config::parse_text(value, run.log.string() + ": resolved");
@@ -54,10 +54,10 @@ config::Node resolved_of(const RecordedRun& run) {
                "resolved.toml in its folder, or its text in the log", "sinew import");
 }
 
-report::RecordedRun recorded(const std::string& named, std::string label, const Notices& notices) {
-  const RecordedRun run = recorded_run(named);
+report::NamedRun recorded(const std::string& named, std::string label, const Notices& notices) {
+  const RunFiles run = run_files(named);
   require_finished(run.log);
-  report::RecordedRun out{std::move(label), log::read(run.log), resolved_of(run)};
+  report::NamedRun out{std::move(label), log::read(run.log), resolved_of(run)};
   if (!out.logged.complete)
     notices.warning(run.log.string() + " was cut off or is damaged; compared as far as it goes");
   return out;
@@ -80,7 +80,7 @@ report::Comparison compare_runs(const std::vector<std::string>& runs,
                                 const report::AlignOptions& align_options,
                                 const std::vector<std::string>& channels, const Notices& notices) {
   const std::vector<std::string> labels = labels_of(runs);
-  std::vector<report::RecordedRun> all;
+  std::vector<report::NamedRun> all;
   for (std::size_t i = 0; i < runs.size(); ++i)
     all.push_back(recorded(runs[i], labels[i], notices));
   report::Comparison comparison = compare(std::move(all), align_options);

@@ -39,7 +39,7 @@ struct Analysed {
 };
 
 ReadRun read(const fs::path& named, const DrawingRequest& request, const Notices& notices) {
-  return read_run(recorded_run(named), request.machine, "the figures show", notices);
+  return read_run(run_files(named), request.machine, "the figures show", notices);
 }
 
 // Converts "/joint/*/angle,/muscle/*/tension" into a figure with two plots.

@@ -5,7 +5,7 @@
 
 namespace sinew::run {
 
-std::string page_of(const RecordedRun& run, const std::string& machine, const Notices& notices,
+std::string page_of(const RunFiles& run, const std::string& machine, const Notices& notices,
                     const std::string& units) {
   const ReadRun read = read_run(run, machine, "the page shows", notices);
   const analysis::Analysis analysis(read.table, analysis::read_machine(read.resolved), read.ended);

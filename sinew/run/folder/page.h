@@ -24,7 +24,7 @@ bool write_report(const OutputFolder& folder, const analysis::Analysis& logged,
 // Returns the page of a recorded run, described by `machine`, or by its resolved.toml if `machine`
 // is empty. Warns if the run ended early or its log is cut off. Throws if there is no such run, or
 // if the library was built without its page.
-std::string page_of(const RecordedRun& run, const std::string& machine, const Notices& notices = {},
+std::string page_of(const RunFiles& run, const std::string& machine, const Notices& notices = {},
                     const std::string& units = "");
 
 }  // namespace sinew::run

@@ -71,7 +71,7 @@ Replayed replay_run(const ReplayRequest& request, const Notices& notices) {
   if (!(request.band >= 0 && request.band <= 1))
     config::fail({"replay", 0, 0}, "band", fmt::format("{:g} %", 100 * request.band),
                  "a share of a channel's range, 0 to 100 %", "5 %");
-  const RecordedRun run = recorded_run(request.run);
+  const RunFiles run = run_files(request.run);
   const std::string machine = machine_of(run, request.machine).string();
   const auto e = buildable_robot(config::compose(machine, request.sets), machine);
   const signals::Table recorded = log::read(run.log);

@@ -109,7 +109,7 @@ void write_into(const OutputFolder& folder, std::string_view name, std::string_v
   write_file(folder.work() / name, text, log::Replacement::Sync::later);
 }
 
-RecordedRun recorded_run(const fs::path& named) {
+RunFiles run_files(const fs::path& named) {
   finish_replacing(fs::is_directory(named) ? named : named.parent_path());
   if (!fs::exists(named))
     refuse(named, "nothing", "the folder of a run, or its log", "the path, or sinew run first");
@@ -120,7 +120,7 @@ RecordedRun recorded_run(const fs::path& named) {
   return {log, folder / resolved_name};
 }
 
-fs::path machine_of(const RecordedRun& run, const std::string& instead) {
+fs::path machine_of(const RunFiles& run, const std::string& instead) {
   const fs::path file = instead.empty() ? run.resolved : fs::path(instead);
   if (!fs::exists(file))
     refuse(file, "nothing", "what was run", "machine=resolved.toml of the run");

@@ -44,17 +44,17 @@ std::string where_left(const OutputFolder& folder);
 void write_into(const OutputFolder& folder, std::string_view name, std::string_view text);
 
 // The files of a stored run.
-struct RecordedRun {
+struct RunFiles {
   std::filesystem::path log;
   std::filesystem::path resolved;  // need not exist
 };
 
 // Finds the files of a run by its folder or its log. Completes a move of files that a killed
 // process left incomplete. Throws config::Error if there is no run, or it has no log.
-RecordedRun recorded_run(const std::filesystem::path& named);
+RunFiles run_files(const std::filesystem::path& named);
 
 // Returns the run's resolved.toml, or `instead` if it is not empty. Throws config::Error if the
 // file does not exist.
-std::filesystem::path machine_of(const RecordedRun& run, const std::string& instead);
+std::filesystem::path machine_of(const RunFiles& run, const std::string& instead);
 
 }  // namespace sinew::run

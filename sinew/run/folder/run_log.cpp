@@ -41,7 +41,7 @@ void require_finished(const std::filesystem::path& log) {
                     log.string(), ended));
 }
 
-ReadRun read_run(const RecordedRun& run, const std::string& machine, const std::string& shows,
+ReadRun read_run(const RunFiles& run, const std::string& machine, const std::string& shows,
                  const Notices& notices) {
   ReadRun out{run.log, config::compose(machine_of(run, machine).string()), log::read(run.log),
               experiment_in(run.log), ended_in(run.log)};

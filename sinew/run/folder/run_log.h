@@ -35,7 +35,7 @@ struct ReadRun {
 
 // Reads a run, described by `machine`, or by its resolved.toml if `machine` is empty. Warns if it
 // ended early or its log is cut off; `shows` is the subject of that warning: "the page shows".
-ReadRun read_run(const RecordedRun& run, const std::string& machine, const std::string& shows,
+ReadRun read_run(const RunFiles& run, const std::string& machine, const std::string& shows,
                  const Notices& notices);
 
 class RunLog {

@@ -45,7 +45,7 @@ TEST_F(KeptRunTest, ReadsBackAsWhatItWas) {
   EXPECT_EQ(kept.json, text_of(root_ / "a" / summary_name));
 
   // The summary is calculated from the log and resolved.toml alone.
-  const RecordedRun recorded = recorded_run(root_ / "a");
+  const RunFiles recorded = run_files(root_ / "a");
   const signals::Table table = log::read(recorded.log);
   EXPECT_TRUE(table.complete);
   const analysis::Summary again = analysis::summarize(table, kept.machine);
