@@ -14,7 +14,7 @@ class Keys(Refusals):
         (damping,) = sinew.keys("joint.hip.damping")
         self.assertEqual((damping["kind"], damping["key"]), ("robot", "joint.<name>.damping"))
         self.assertEqual((damping["unit"], damping["min"], damping["required"]), ("N m s/rad", 0, True))
-        self.assertEqual(damping["doc"], "viscous")
+        self.assertEqual(damping["doc"], "viscous damping")
 
     def test_they_are_those_of_the_program(self) -> None:
         words = [os.environ["SINEW"], "keys", "damping", "--kind", "robot", "--json"]
