@@ -186,17 +186,6 @@ struct ExportOptions : Flags {
   bool csv = false, derived = false;
 };
 
-std::vector<std::string> chosen_topics(const ExportOptions& options, const signals::Table& table) {
-  if (options.channels.empty()) return {};
-  const std::vector<std::string_view> names = experiment::names_of(table);
-  const std::vector<bool> chosen =
-      experiment::select(options.channels, names, {"--channels", 0, 0});
-  std::vector<std::string> topics;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (chosen[i]) topics.emplace_back(names[i]);
-  return topics;
-}
-
 // Writes line by line, since the text of a long run is longer than memory.
 void put_csv(const run::RunFiles& run, const ExportOptions& options, signals::Table table) {
   if (options.derived) {
@@ -204,7 +193,8 @@ void put_csv(const run::RunFiles& run, const ExportOptions& options, signals::Ta
     signals::Table derived = analysis::derive(table, analysis::read_machine(root));
     for (signals::Series& s : derived.series) table.series.push_back(std::move(s));
   }
-  const std::vector<std::string> topics = chosen_topics(options, table);
+  const std::vector<std::string> topics =
+      experiment::select(options.channels, experiment::names_of(table), {"--channels", 0, 0});
   if (!options.out.empty()) {
     run::require_folder_of(options.out);
     return log::write_csv(table, options.out, topics);

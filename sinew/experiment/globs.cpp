@@ -23,9 +23,9 @@ bool matches(std::string_view pattern, std::string_view text) {
   return p == pattern.size();
 }
 
-std::vector<bool> select(const std::vector<std::string>& patterns,
-                         const std::vector<std::string_view>& topics, const config::Location& where,
-                         const std::string& key) {
+std::vector<std::string> select(const std::vector<std::string>& patterns,
+                                const std::vector<std::string_view>& topics,
+                                const config::Location& where, const std::string& key) {
   std::vector<bool> chosen(topics.size(), false);
   for (const std::string& pattern : patterns) {
     bool any = false;
@@ -38,7 +38,10 @@ std::vector<bool> select(const std::vector<std::string>& patterns,
     config::fail(where, key, config::in_quotes(pattern), "a topic, or * in place of its parts",
                  near.empty() ? "\"/joint/*\"" : near);
   }
-  return chosen;
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < topics.size(); ++i)
+    if (chosen[i]) out.emplace_back(topics[i]);
+  return out;
 }
 
 std::vector<std::string_view> names_of(const signals::Table& table) {

@@ -219,9 +219,10 @@ Comparison compare(std::vector<NamedRun> runs, const AlignOptions& options) {
   return out;
 }
 
-void keep(Comparison& comparison, const std::set<std::string>& topics) {
-  std::erase_if(comparison.channels,
-                [&](const ChannelRow& row) { return !topics.contains(row.channel.topic); });
+void keep(Comparison& comparison, const std::vector<std::string>& topics) {
+  std::erase_if(comparison.channels, [&](const ChannelRow& row) {
+    return std::ranges::find(topics, row.channel.topic) == topics.end();
+  });
 }
 
 namespace {

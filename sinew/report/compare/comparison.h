@@ -11,7 +11,6 @@
 
 #include <limits>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -104,7 +103,7 @@ struct Comparison {
 Comparison compare(std::vector<NamedRun> runs, const AlignOptions& options);
 
 // Leaves only the channels of these topics.
-void keep(Comparison& comparison, const std::set<std::string>& topics);
+void keep(Comparison& comparison, const std::vector<std::string>& topics);
 
 // Returns the comparison without samples as JSON: "format": "sinew.comparison/1", SI, null for
 // missing values.

@@ -67,11 +67,7 @@ void keep_chosen(report::Comparison& comparison, const std::vector<std::string>&
   if (patterns.empty()) return;
   std::vector<std::string_view> names;
   for (const report::ChannelRow& row : comparison.channels) names.push_back(row.channel.topic);
-  const std::vector<bool> chosen = experiment::select(patterns, names, {"channels", 0, 0});
-  std::set<std::string> topics;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (chosen[i]) topics.emplace(names[i]);
-  keep(comparison, topics);
+  keep(comparison, experiment::select(patterns, names, {"channels", 0, 0}));
 }
 
 }  // namespace

@@ -38,13 +38,14 @@ LoggedTopics logged_topics(const std::vector<signals::Topic>& recorded,
                            const std::string& path) {
   const config::Origin* origin = config::find_origin(origins, "log.channels");
   const bool written = origin && !origin->is_default;
-  const std::vector<bool> wanted =
+  const std::vector<std::string> chosen =
       experiment::select(patterns, config::names_of(recorded),
                          written ? origin->where : config::Location{path, 0, 0}, "log.channels");
   LoggedTopics out;
-  for (std::size_t i = 0; i < recorded.size(); ++i) {
-    out.of_series.push_back(wanted[i] ? static_cast<std::uint16_t>(out.topics.size()) : not_tapped);
-    if (wanted[i]) out.topics.push_back(recorded[i]);
+  for (const signals::Topic& topic : recorded) {
+    const bool is_chosen = std::ranges::find(chosen, topic.name) != chosen.end();
+    out.of_series.push_back(is_chosen ? static_cast<std::uint16_t>(out.topics.size()) : not_tapped);
+    if (is_chosen) out.topics.push_back(topic);
   }
   return out;
 }
