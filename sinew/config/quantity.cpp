@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/spelling.h"
 #include "sinew/units/shown.h"
+#include "sinew/units/spelling.h"
 #include "sinew/units/unit.h"
 
 namespace sinew::config {
@@ -320,7 +320,7 @@ std::string comma_hint(std::string_view text, std::string_view rest) {
 
 // Returns "psi gauge" for "psig", a unit in another spelling.
 std::string spelling_hint(const FullUnit& found) {
-  const std::vector<Spelling> meant = spellings(found.text);
+  const std::vector<units::Spelling> meant = units::spellings(found.text);
   if (meant.empty()) return {};
   const auto& [unit, factor] = meant.front();
   constexpr std::string_view references[] = {"", " abs", " gauge", " diff"};

@@ -203,5 +203,22 @@ TEST(Quantity, CoefficientsOfAPolynomialHaveFallingUnits) {
   EXPECT_NO_THROW(read("2 (s/m) (s/m)", coefficient_unit("1", "m/s", 2)));
 }
 
+TEST(Quantity, OfAnotherSpellingIsRefusedWithTheRightOne) {
+  const std::tuple<const char*, const char*, const char*> cases[] = {
+      {"60 psig", "Pa abs", "\"psi gauge\""},
+      {"4 barg", "Pa abs", "\"bar gauge\""},
+      {"3 Nm", "N m", "\"N m\""},
+      {"3 lbin", "N m", "\"lbf in\""},
+      {"90 °", "rad", "\"deg\""},
+      {"5 inch", "m", "\"in\""},
+      {"60 PSI gauge", "Pa abs", "\"psi gauge\""},
+      {"300 mbar gauge", "Pa abs", "\"bar gauge\": 1 mbar is 0.001 bar"}};
+  for (const auto& [text, unit, hint] : cases) {
+    const Parsed parsed = parse_quantity(text, unit);
+    ASSERT_TRUE(parsed.mistake) << text;
+    EXPECT_EQ(parsed.mistake->try_this, hint) << text;
+  }
+}
+
 }  // namespace
 }  // namespace sinew::config::quantity_test

@@ -8,16 +8,9 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
-#include "sinew/config/spelling.h"
+#include "sinew/units/spelling.h"
 
 namespace sinew::recording {
-
-double seconds_per_unit(const std::string& unit, const std::string& file) {
-  if (unit.empty()) return 1;
-  const config::Parsed one = config::parse_quantity("1 " + unit, "s");
-  if (!one.mistake) return one.si;
-  config::fail({file, 0, 0}, "clock.unit", config::in_quotes(unit), "a unit of time", "\"ms\"");
-}
 
 namespace {
 
@@ -235,7 +228,7 @@ double period_of_rate(const std::string& rate) {
   const std::size_t number = rate.find_first_not_of("0123456789.+-eE");
   std::string text = rate;
   if (number != std::string::npos) {
-    const auto unit = config::spellings(std::string_view(rate).substr(number));
+    const auto unit = units::spellings(std::string_view(rate).substr(number));
     if (!unit.empty() && unit.front().factor == 1)
       text = rate.substr(0, number) + " " + unit.front().unit;
   }

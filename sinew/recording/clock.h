@@ -140,17 +140,4 @@ void check_order(const std::vector<double>& time, const std::vector<int>& lines,
 void refuse_repeated(const std::vector<double>& time, const std::vector<int>& lines,
                      config::Problems& problems);
 
-// Settings of a recording's clock that are given before the recording is read.
-
-// Names the source of the times.
-struct ClockSettings {
-  std::string column;  // with the times; empty: `time` or the only likely column
-  std::string unit;    // unit of its numbers; empty: the file's, or else s
-  std::string rate;    // "100 Hz", in place of a column; empty: a column holds the times
-};
-
-// Returns the seconds in one unit of the clock; `file` is for the message. Throws config::Error if
-// `unit` is not a unit of time.
-double seconds_per_unit(const std::string& unit, const std::string& file);
-
 }  // namespace sinew::recording

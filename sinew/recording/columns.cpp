@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/spelling.h"
 #include "sinew/config/utf8.h"
 #include "sinew/units/letters.h"
+#include "sinew/units/spelling.h"
 
 namespace sinew::recording {
 
@@ -25,8 +25,8 @@ bool split_at(std::string_view mark, std::string_view text, Heading& h) {
   const std::string_view name = trimmed(text.substr(0, at));
   const std::string_view unit = without_brackets(text.substr(at + mark.size()));
   // A whole unit such as "m/s" as a column's name is not split.
-  if (name.empty() || config::spellings(unit).empty()) return false;
-  if (mark == "/" && !config::spellings(name).empty() && !config::spellings(text).empty())
+  if (name.empty() || units::spellings(unit).empty()) return false;
+  if (mark == "/" && !units::spellings(name).empty() && !units::spellings(text).empty())
     return false;
   h.name = name;
   h.unit = unit;
@@ -45,7 +45,7 @@ bool split_at_brackets(std::string_view text, char open, char close, Heading& h)
   }
   if (depth != 0 || at > text.size()) return false;
   const std::string_view unit = trimmed(text.substr(at + 1, text.size() - at - 2));
-  if (open == '(' && (at == 0 || config::spellings(unit).empty())) return false;
+  if (open == '(' && (at == 0 || units::spellings(unit).empty())) return false;
   h.name = trimmed(text.substr(0, at));
   h.unit = unit;
   return true;
@@ -53,8 +53,8 @@ bool split_at_brackets(std::string_view text, char open, char close, Heading& h)
 
 // Adds the reference to a pressure unit if the name contains it: "Druck ABS. (MPa)".
 void add_reference(Heading& h) {
-  const std::vector<config::Spelling> meanings = config::spellings(h.unit);
-  if (meanings.empty() || !config::is_unit(meanings.front().unit + " gauge")) return;
+  const std::vector<units::Spelling> meanings = units::spellings(h.unit);
+  if (meanings.empty() || !units::is_unit(meanings.front().unit + " gauge")) return;
   constexpr std::pair<std::string_view, const char*> words[] = {
       {"abs", " abs"},     {"abs.", " abs"},  {"absolute", " abs"}, {"absolut", " abs"},
       {"gauge", " gauge"}, {"rel", " gauge"}, {"rel.", " gauge"},   {"relative", " gauge"}};
@@ -77,7 +77,7 @@ std::string_view without_brackets(std::string_view text) {
 
 bool is_unit_cell(std::string_view text) {
   const std::string_view unit = without_brackets(text);
-  return unit.empty() || !config::spellings(unit).empty();
+  return unit.empty() || !units::spellings(unit).empty();
 }
 
 Heading heading_of(const Cell& cell) {
@@ -158,10 +158,10 @@ std::string without_number(std::string text) {
 
 std::variant<FileUnit, std::string> file_unit(const std::string& unit, const std::string& wanted,
                                               double atmosphere) {
-  std::vector<config::Spelling> meanings = config::spellings(unit);
+  std::vector<units::Spelling> meanings = units::spellings(unit);
   if (meanings.empty()) meanings.push_back({unit});
   std::string advice;
-  for (const config::Spelling& meaning : meanings) {
+  for (const units::Spelling& meaning : meanings) {
     const auto parse = [&](int number) {
       return config::parse_quantity(fmt::format("{} {}", number, meaning.unit), wanted, atmosphere);
     };
@@ -172,7 +172,7 @@ std::variant<FileUnit, std::string> file_unit(const std::string& unit, const std
     if (advice.empty()) advice = without_number(zero.mistake->try_this);
   }
   const bool is_pressure = wanted.starts_with("Pa ") && !unit.empty();
-  if (is_pressure && config::is_unit(meanings.front().unit + " gauge"))
+  if (is_pressure && units::is_unit(meanings.front().unit + " gauge"))
     return fmt::format("\"{0} gauge\" or \"{0} abs\"", unit);
   return advice;
 }
@@ -182,7 +182,7 @@ bool is_gauge_channel(std::string_view name) {
 }
 
 FileUnit own_unit(const std::string& unit) {
-  const std::vector<config::Spelling> meanings = config::spellings(unit);
+  const std::vector<units::Spelling> meanings = units::spellings(unit);
   if (meanings.empty()) return {{}, unit};
   return {{meanings.front().factor, 0}, meanings.front().unit};
 }

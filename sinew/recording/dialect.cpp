@@ -13,11 +13,11 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
-#include "sinew/config/spelling.h"
 #include "sinew/config/utf8.h"
 #include "sinew/recording/rows.h"
 #include "sinew/recording/stamp.h"
 #include "sinew/units/letters.h"
+#include "sinew/units/spelling.h"
 
 namespace sinew::recording {
 

@@ -197,10 +197,18 @@ std::string readable_name(std::string_view name, const Variables& in) {
   return scope.substr(0, signals) + scope.substr(signals + std::strlen(".signals"));
 }
 
+// Returns the seconds in one unit of the clock.
+double seconds_per_unit(const std::string& unit, const std::string& file) {
+  if (unit.empty()) return 1;
+  const config::Parsed one = config::parse_quantity("1 " + unit, "s");
+  if (!one.mistake) return one.si;
+  config::fail({file, 0, 0}, "clock.unit", config::in_quotes(unit), "a unit of time", "\"ms\"");
+}
+
 // Adds matrices as columns, each with its clock.
 class Columns {
  public:
-  Columns(Variables in, const ClockSettings& settings, Recorded& out)
+  Columns(Variables in, const ClockMapping& settings, Recorded& out)
       : in_(std::move(in)), settings_(settings), out_(out) {}
 
   void put() {
@@ -304,7 +312,7 @@ class Columns {
   }
 
   Variables in_;
-  const ClockSettings& settings_;
+  const ClockMapping& settings_;
   Recorded& out_;
   signals::PageFile pages_ = signals::PageFile::make();
   std::vector<std::string> single_, other_length_;
@@ -316,7 +324,7 @@ bool is_matlab(std::string_view bytes) {
   return bytes.starts_with("MATLAB 5.0 MAT-file") || bytes.starts_with("MATLAB 7.3 MAT-file");
 }
 
-Recorded read_matlab(const std::string& path, const ClockSettings& clock) {
+Recorded read_matlab(const std::string& path, const ClockMapping& clock) {
   {
     const log::Mapping bytes(path);
     check_matlab_bytes(bytes.bytes(), path);

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "sinew/recording/clock.h"
+#include "sinew/recording/mapping.h"
 #include "sinew/recording/recorded.h"
 
 namespace sinew::recording {
@@ -22,6 +22,6 @@ bool is_matlab(std::string_view bytes);
 
 // Reads a MAT file. Throws config::Error if the file is not a MAT file, is cut off or has no times,
 // and if the program was built without libmatio.
-Recorded read_matlab(const std::string& path, const ClockSettings& clock);
+Recorded read_matlab(const std::string& path, const ClockMapping& clock);
 
 }  // namespace sinew::recording

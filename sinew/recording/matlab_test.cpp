@@ -103,10 +103,10 @@ class MatlabTest : public ::testing::Test {
     std::ofstream(folder_ / name, std::ios::binary | std::ios::trunc) << bytes;
     return (folder_ / name).string();
   }
-  Recorded take(const std::string& variables, const ClockSettings& clock = {}) const {
+  Recorded take(const std::string& variables, const ClockMapping& clock = {}) const {
     return read_matlab(put(file_of(variables)), clock);
   }
-  std::string error_of(const std::string& bytes, const ClockSettings& clock = {}) const {
+  std::string error_of(const std::string& bytes, const ClockMapping& clock = {}) const {
     try {
       (void)read_matlab(put(bytes), clock);
     } catch (const std::exception& e) {

@@ -6,7 +6,7 @@
 #include <array>
 #include <charconv>
 
-#include "sinew/config/spelling.h"
+#include "sinew/units/spelling.h"
 
 namespace sinew::recording {
 
@@ -183,7 +183,7 @@ std::string hint_for(std::string_view text, NumberStyle style) {
   if (evidence.comma)
     return fmt::format("a decimal point: {}", with_mark(text, text.find(','), '.'));
   const std::size_t blank = text.find_first_not_of("0123456789.,+-eE");
-  if (blank != text.npos && blank > 0 && !config::spellings(text.substr(blank)).empty())
+  if (blank != text.npos && blank > 0 && !units::spellings(text.substr(blank)).empty())
     return "the unit in the header alone, as in `force [N]`";
   return "";
 }

@@ -148,7 +148,7 @@ Recorded read_recording(const std::string& path, const Mapping& mapping,
   }
   if (is_matlab(bytes) || std::filesystem::path(path).extension() == ".mat") {
     refuse_table_settings(path, "a MAT file", mapping);
-    return read_matlab(path, {mapping.clock.column, mapping.clock.unit, mapping.clock.rate});
+    return read_matlab(path, mapping.clock);
   }
   return read_text(path, mapping, read);
 }

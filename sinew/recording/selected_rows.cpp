@@ -7,19 +7,12 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
+#include "sinew/config/setting.h"
 #include "sinew/recording/columns.h"
 
 namespace sinew::recording {
 
 namespace {
-
-// Removes and returns the first item of a list with commas.
-std::string_view first_of(std::string_view& list) {
-  const std::size_t comma = std::min(list.find(','), list.size());
-  const std::string_view out = config::trimmed(list.substr(0, comma));
-  list.remove_prefix(std::min(comma + 1, list.size()));
-  return out;
-}
 
 // Takes the cells that `to` lacks.
 void take_cells(Row& from, Row& to) {
@@ -43,7 +36,8 @@ SelectedRows::SelectedRows(const Grid& grid, const Source& source, RowClock& clo
       body_(grid) {
   check_columns(grid.header(), "where", source.where, problems);
   for (const auto& [name, values] : source.where)
-    if (const auto column = grid.header().find(name)) where_.emplace_back(*column, values);
+    if (const auto column = grid.header().find(name))
+      where_.emplace_back(*column, config::at_commas(values));
 }
 
 bool SelectedRows::next() {
@@ -86,12 +80,10 @@ bool SelectedRows::meets_conditions(const Row& row) const {
   return std::ranges::all_of(where_, [&](const auto& condition) {
     const std::string_view cell = row.cells[condition.first].text;
     const auto number = number_in(cell, grid_.dialect.numbers);
-    for (std::string_view rest = condition.second; !rest.empty();) {
-      const std::string_view value = first_of(rest);
-      const auto wanted = number_in(value);
-      if (number && wanted ? *number == *wanted : cell == value) return true;
-    }
-    return false;
+    return std::ranges::any_of(condition.second, [&](const std::string& value) {
+      const auto wanted = number_in(config::trimmed(value));
+      return number && wanted ? *number == *wanted : cell == config::trimmed(value);
+    });
   });
 }
 

@@ -69,8 +69,8 @@ class SelectedRows {
   RowClock& clock_;
   config::Problems& problems_;
   std::optional<ClockColumns> only_;
-  std::vector<std::size_t> columns_;                        // must not differ in merged rows
-  std::vector<std::pair<std::size_t, std::string>> where_;  // index of a column, its values
+  std::vector<std::size_t> columns_;  // must not differ in merged rows
+  std::vector<std::pair<std::size_t, std::vector<std::string>>> where_;  // a column, its values
   Body body_;
   Row row_, next_;  // `next_` is read, but not yet merged
   std::size_t index_ = 0, next_index_ = 0, merged_ = 0;

@@ -1,29 +1,18 @@
 // Units of formulas: the dimensions of a unit of the log, and the unit of a result.
 
+import { known_units } from './quantities.js';
+
 const bases = ['m', 'kg', 's', 'rad', 'count', 'K', 'A'];
-const dims = (powers) => bases.map((b) => powers[b] ?? 0);
+const volt = { kg: 1, m: 2, s: -3, A: -1 };
+const dims = (powers) => bases.map((b) => (powers[b] ?? 0) + (powers.V ?? 0) * (volt[b] ?? 0));
 
-// Units by name: size in SI and powers of the dimensions. Angle and converter count are dimensions, as
-// everywhere in Sinew.
-const words = {
-  m: [1, { m: 1 }], mm: [1e-3, { m: 1 }], cm: [1e-2, { m: 1 }], in: [0.0254, { m: 1 }], ft: [0.3048, { m: 1 }],
-  kg: [1, { kg: 1 }], g: [1e-3, { kg: 1 }], lb: [0.45359237, { kg: 1 }],
-  s: [1, { s: 1 }], ms: [1e-3, { s: 1 }], Hz: [1, { s: -1 }],
-  rad: [1, { rad: 1 }], deg: [Math.PI / 180, { rad: 1 }], count: [1, { count: 1 }], K: [1, { K: 1 }], A: [1, { A: 1 }],
-  V: [1, { kg: 1, m: 2, s: -3, A: -1 }],
-  N: [1, { kg: 1, m: 1, s: -2 }], lbf: [4.4482216152605, { kg: 1, m: 1, s: -2 }],
-  Pa: [1, { kg: 1, m: -1, s: -2 }], kPa: [1e3, { kg: 1, m: -1, s: -2 }], MPa: [1e6, { kg: 1, m: -1, s: -2 }],
-  bar: [1e5, { kg: 1, m: -1, s: -2 }], mbar: [100, { kg: 1, m: -1, s: -2 }],
-  psi: [6894.757293168361, { kg: 1, m: -1, s: -2 }],
-  J: [1, { kg: 1, m: 2, s: -2 }], W: [1, { kg: 1, m: 2, s: -3 }],
-  share: [1, {}],
-};
-
-export const unit_words = Object.keys(words).filter((w) => w !== 'share');
 export const none = dims({});
 
+// Returns the size in SI and the dimensions of a unit; null if it is unknown. Angle and converter count are
+// dimensions, as everywhere in Sinew.
 export function unit_word(word) {
-  const found = Object.hasOwn(words, word) ? words[word] : null;
+  if (word === 'share') return { scale: 1, dims: none };
+  const found = Object.hasOwn(known_units, word) ? known_units[word] : null;
   return found && { scale: found[0], dims: dims(found[1]) };
 }
 

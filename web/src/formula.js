@@ -134,7 +134,7 @@ class Parser {
     for (;;) {
       this.skip();
       const word = this.text.slice(this.at).match(/^[A-Za-z]+|^%/)?.[0];
-      const unit = word === '%' ? { scale: 0.01, dims: none } : word && unit_word(word);
+      const unit = word && unit_word(word);
       if (!unit) return out;
       this.at += word.length;
       out = { ...out, value: out.value * unit.scale, dims: times(out.dims, unit.dims) };

@@ -1,6 +1,7 @@
 // Units of the page; the log is in SI.
 
 import { recall, remember } from './memory.js';
+import { key_endings } from './quantities.js';
 
 // Used if the page has no table of units: everything stays in SI.
 const none = { start: 'si', sets: [{ name: 'si', title: 'SI', about: '', units: {} }] };
@@ -88,21 +89,15 @@ export const signed = (value) => (value === 0 ? '=' : value > 0 ? `+${number(val
 export const difference_unit = (unit) => (unit === 'Pa' ? 'Pa diff' : unit);
 
 // "trolley.mean_speed_m_per_s" -> its unit in SI, as in docs/reference/analysis.md.
-const endings = [
-  ['_Nm_per_rad', 'N m/rad'], ['_N_s_per_m', 'N s/m'], ['_rad_per_s', 'rad/s'], ['_m_per_s', 'm/s'],
-  ['_kg_per_m', 'kg/m'], ['_s_per_m', 's/m'], ['_J_per_m', 'J/m'], ['_per_m', '1/m'],
-  ['_rad', 'rad'], ['_Nm', 'N m'], ['_kg', 'kg'], ['_count', 'count'],
-  ['_diff_Pa', 'Pa diff'], ['_Pa', 'Pa'], ['_Hz', 'Hz'],
-  ['_N', 'N'], ['_J', 'J'], ['_m', 'm'], ['_s', 's'],
-];
+const ending_of = (key) => key_endings.find(([ending]) => key.endsWith(ending));
 export function unit_of_key(key) {
-  const found = endings.find(([ending]) => key.endsWith(ending));
-  return found ? found[1] : '1';
+  const unit = ending_of(key)?.[1] ?? '1';
+  return unit === 'Pa abs' ? 'Pa' : unit;
 }
 
 // "joints.hip.min_angle_rad" -> "hip · min angle"
 export function words_of_key(key) {
-  const found = endings.find(([ending]) => key.endsWith(ending));
+  const found = ending_of(key);
   const name = found ? key.slice(0, -found[0].length) : key;
   return name.replace(/^(joints|muscles)\./, '').split('.').join(' · ').replaceAll('_', ' ');
 }

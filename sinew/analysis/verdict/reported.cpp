@@ -10,6 +10,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/json/json.h"
+#include "sinew/units/key_endings.h"
 
 namespace sinew::analysis {
 
@@ -91,29 +92,6 @@ std::string to_json(const Summary& summary, const Host& host) {
 }
 
 namespace {
-
-// Longest first: "_m_per_s" ends with "_s" too.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 19> endings = {{
-    {"_Nm_per_rad", "N m/rad"},
-    {"_N_s_per_m", "N s/m"},
-    {"_rad_per_s", "rad/s"},
-    {"_m_per_s", "m/s"},
-    {"_kg_per_m", "kg/m"},
-    {"_s_per_m", "s/m"},
-    {"_J_per_m", "J/m"},
-    {"_per_m", "1/m"},
-    {"_rad", "rad"},
-    {"_Nm", "N m"},
-    {"_kg", "kg"},
-    {"_count", "count"},
-    {"_diff_Pa", "Pa diff"},
-    {"_Pa", "Pa abs"},
-    {"_Hz", "Hz"},
-    {"_N", "N"},
-    {"_J", "J"},
-    {"_m", "m"},
-    {"_s", "s"},
-}};
 
 struct BandOrMistake {
   Band band;
@@ -323,13 +301,13 @@ std::string quoted_unit(const Reported& r, double atmosphere) {
 }
 
 std::string unit_of_key(std::string_view key) {
-  for (const auto& [ending, unit] : endings)
+  for (const auto& [ending, unit] : units::key_endings)
     if (key.ends_with(ending)) return std::string(unit);
   return "1";
 }
 
 std::string_view without_unit(std::string_view key) {
-  for (const auto& [ending, unit] : endings)
+  for (const auto& [ending, unit] : units::key_endings)
     if (key.ends_with(ending)) return key.substr(0, key.size() - ending.size());
   return key;
 }

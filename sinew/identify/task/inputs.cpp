@@ -173,9 +173,7 @@ std::vector<std::string> pressure_references(std::string_view unit) {
 }
 
 units::Dimension dimension_of_column(std::string_view unit) {
-  for (const std::string_view word : {" gauge", " abs"})
-    if (unit.ends_with(word)) unit.remove_suffix(word.size());
-  return units::read_unit(unit).unit.dimension;
+  return units::read_unit(units::unit_and_reference(unit)[0]).unit.dimension;
 }
 
 // Splits alternative columns at bars: "force|load".

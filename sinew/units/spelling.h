@@ -1,4 +1,4 @@
-// config/spelling.h - common spellings of units: "psig", "Nm", "°C", "mm²", "U/min".
+// units/spelling.h - common spellings of units: "psig", "Nm", "°C", "mm²", "U/min".
 //
 // Sinew's own files have one spelling per unit. Tables from laboratories have many, most of them
 // unambiguous; `lb` for a force is ambiguous, and `bar` lacks the reference of a pressure.
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sinew::config {
+namespace sinew::units {
 
 // Unit of Sinew, and its number in one of the other unit: "mbar" is 0.001 "bar". The factor
 // differs from 1 for units that Sinew does not have.
@@ -24,4 +24,4 @@ std::vector<Spelling> spellings(std::string_view unit);
 // Returns whether the text is a unit in Sinew's spelling, with or without "gauge", "abs" or "diff".
 bool is_unit(std::string_view unit);
 
-}  // namespace sinew::config
+}  // namespace sinew::units

@@ -1,4 +1,4 @@
-#include "sinew/config/spelling.h"
+#include "sinew/units/spelling.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include "sinew/units/letters.h"
 #include "sinew/units/unit.h"
 
-namespace sinew::config {
+namespace sinew::units {
 
 namespace {
 
@@ -261,4 +261,4 @@ std::vector<Spelling> spellings(std::string_view unit) {
   return bare_spellings(text);
 }
 
-}  // namespace sinew::config
+}  // namespace sinew::units
