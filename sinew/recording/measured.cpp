@@ -500,6 +500,10 @@ Measured Measured::subset(std::span<const std::size_t> keep) const {
     out.columns.push_back({column.name, column.unit, {}, column.shown, column.is_stated});
   for (const std::size_t row : keep) {
     out.lines.push_back(lines.at(row));
+    if (!weights.empty()) {
+      out.weights.push_back(weights.at(row));
+      out.variances.push_back(variances.at(row));
+    }
     for (std::size_t i = 0; i < columns.size(); ++i)
       out.columns[i].values.push_back(columns[i].values.at(row));
   }

@@ -47,7 +47,10 @@ struct Column {
 struct Measured {
   std::string file;
   std::vector<Column> columns;
-  std::vector<int> lines;          // line numbers in the file, one per row
+  std::vector<int> lines;  // line numbers in the file, one per row
+  // Of rows that are averages: independent readings behind each, and their variance in the
+  // response. Empty: each row is one reading.
+  std::vector<double> weights, variances;
   std::vector<std::string> notes;  // parts that were left out
 
   // Return the number of rows, and whether there is a column of that name.

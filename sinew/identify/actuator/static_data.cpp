@@ -414,6 +414,10 @@ Zero add_table(const Measured& m, const StaticInput& input, StaticData& data) {
                       .rest_length = m.has("rest_length") ? m["rest_length"][i] : input.rest_length,
                       .fitted = input.fitted};
     if (m.has("branch")) point.branch = m["branch"][i] > 0 ? Branch::fill : Branch::vent;
+    if (!m.weights.empty()) {
+      point.weight = m.weights[i];
+      point.variance = m.variances[i] * std::pow(m.has("load") ? force[i] / m["load"][i] : 1, 2);
+    }
     data.points.push_back(point);
   }
   return zero;

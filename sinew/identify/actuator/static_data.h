@@ -26,7 +26,9 @@ struct StaticPoint {
   double force = 0;        // zero subtracted [N]
   double rest_length = 0;  // rest length of its muscle [m]; 0: unknown
   Branch branch = Branch::unknown;
-  bool fitted = true;  // false: held out
+  bool fitted = true;   // false: held out
+  double weight = 1;    // independent readings of which it is the average
+  double variance = 0;  // of the force among these readings [N2]
 };
 
 struct Zero {

@@ -14,6 +14,7 @@
 #include "sinew/identify/actuator/static.h"
 #include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/contest/refusal.h"
+#include "sinew/identify/data/averaged.h"
 
 namespace sinew::identify::static_data_test {
 namespace {
@@ -32,6 +33,26 @@ StaticSetting truth() {
 double force_at(double length, double pressure) {
   return predicted(truth(), {.rest_length = rest},
                    {.length = length, .pressure = pressure, .rest_length = rest});
+}
+
+// Four mounts, each filled and vented once, with friction of 8 kPa that no column shows.
+Measured filled_and_vented(std::size_t rows) {
+  std::mt19937 random(6);
+  std::normal_distribution<double> noise(0, 1);
+  Measured out{.file = "log.csv",
+               .columns = {{"length", "m", {}}, {"pressure", "Pa gauge", {}}, {"force", "N", {}}}};
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double share = std::fmod(4.0 * static_cast<double>(i) / static_cast<double>(rows), 1.0);
+    const double length =
+        rest - 0.01 * std::floor(4.0 * static_cast<double>(i) / static_cast<double>(rows));
+    const double pressure = 6 * bar * (1 - std::abs(2 * share - 1));
+    const double friction = share < 0.5 ? 8e3 : -8e3;
+    out.columns[0].values.push_back(length);
+    out.columns[1].values.push_back(pressure);
+    out.columns[2].values.push_back(force_at(length, pressure - friction) + noise(random));
+    out.lines.push_back(static_cast<int>(i) + 2);
+  }
+  return out;
 }
 
 // Filled for 20 s, vented for 10 s, 200 Hz; vented and at rest before.
@@ -70,6 +91,23 @@ std::string refusal_of(const std::string& text, const StaticInput& input = {}) {
     return e.what();
   }
   return "";
+}
+
+// A table of 3900 rows is fitted row by row; logged ten times more densely it is averaged.
+// Parameters agree to a tenth of their intervals, and the intervals to a tenth.
+TEST(StaticData, ATableThatIsLoggedMoreDenselyGivesTheSameLaw) {
+  const auto law_of = [](std::size_t rows) {
+    StaticData data;
+    add_points(settings_averaged(filled_and_vented(rows), "force"), {.rest_length = rest}, data);
+    return identify_static(data, {.model = "threshold"}).report.best().parameters;
+  };
+  const std::vector<Estimate> once = law_of(3900), dense = law_of(39000);
+  ASSERT_EQ(once.size(), dense.size());
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    const double half = 0.5 * (once[i].high - once[i].low);
+    EXPECT_NEAR(dense[i].value, once[i].value, 0.1 * half) << once[i].name;
+    EXPECT_NEAR(0.5 * (dense[i].high - dense[i].low), half, 0.1 * half) << once[i].name;
+  }
 }
 
 TEST(StaticData, BranchesAndZerosOfARecordingAreFound) {

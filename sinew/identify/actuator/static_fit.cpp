@@ -31,18 +31,21 @@ namespace {
 // correction for the leverage of a point). Readings of one setting share the law's error there, so
 // they are summed before squaring. Intervals are only widened, never narrowed.
 //
-// The first of `count` residuals are measurements with these settings, the others are priors. A
-// residual beyond `outlier` scatters counts as that many.
+// The first of `count` residuals are measurements with these settings and weights, the others are
+// priors. A residual beyond `outlier` scatters counts as that many.
 void widen(const Slopes& slopes, std::span<const Parameter> parameters, std::size_t count,
-           std::span<const int> settings, double scatter, double outlier, Solution& solution) {
+           std::span<const int> settings, std::span<const double> weights, double scatter,
+           double outlier, Solution& solution) {
   const std::size_t n = solution.values.size();
   if (n == 0) return;
   std::vector<double> left(count);
   Matrix j(count, n);  // per scale
   slopes(solution.values, left, {j.column(0).data(), count * n});
-  for (std::size_t i = 0; i < n; ++i)
-    for (double& x : j.column(i))
-      x *= solution.estimates[i].at_bound || !solution.estimates[i].free ? 0 : parameters[i].scale;
+  const auto root = [&](std::size_t r) { return r < weights.size() ? std::sqrt(weights[r]) : 1.0; };
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool is_held = solution.estimates[i].at_bound || !solution.estimates[i].free;
+    for (std::size_t r = 0; r < count; ++r) j(r, i) *= is_held ? 0 : parameters[i].scale * root(r);
+  }
   const Matrix pull = product(j, inverse_where_determined(transposed_product(j, j)));
   const std::size_t points = settings.size();
   const auto setting = [&](std::size_t r) {
@@ -56,13 +59,15 @@ void widen(const Slopes& slopes, std::span<const Parameter> parameters, std::siz
     double off = r < points ? solution.residuals[r] : scatter;
     off = std::clamp(off, -outlier * scatter, outlier * scatter);
     if (r < points) off /= std::max(0.2, 1 - leverage[setting(r)]);
-    for (std::size_t i = 0; i < n; ++i) moved(setting(r), i) += off * pull(r, i);
+    for (std::size_t i = 0; i < n; ++i) moved(setting(r), i) += off * root(r) * pull(r, i);
   }
   std::vector<double> variance(n);  // one per parameter, in its scale
   for (std::size_t r = 0; r < count; ++r)
     for (std::size_t i = 0; i < n; ++i) variance[i] += moved(r, i) * moved(r, i);
   const int distinct = settings.empty() ? 0 : *std::ranges::max_element(settings) + 1;
-  solution.freedom -= static_cast<int>(points) - distinct;
+  double readings = 0;
+  for (std::size_t r = 0; r < points; ++r) readings += r < weights.size() ? weights[r] : 1;
+  solution.freedom -= static_cast<int>(std::lround(readings)) - distinct;
   const double t = t_quantile(std::max(1, solution.freedom));
   for (std::size_t i = 0; i < n; ++i) {
     Estimate& e = solution.estimates[i];
@@ -210,6 +215,15 @@ class Problem {
   std::vector<std::optional<Prior>> priors_;
 };
 
+// Writes the readings behind the points into the options, if they are averages.
+void put_readings(std::span<const StaticPoint> points, SolverOptions& options) {
+  if (std::ranges::all_of(points, [](const StaticPoint& p) { return p.weight == 1; })) return;
+  for (const StaticPoint& p : points) {
+    options.weights.push_back(p.weight);
+    options.variances.push_back(p.variance);
+  }
+}
+
 // Returns the scatter of the residuals of taut points.
 double scatter_of(std::span<const double> residuals, std::span<const StaticPoint> points,
                   const StaticScales& scales) {
@@ -315,11 +329,12 @@ StaticFit fit_static(const std::vector<FreeParameter>& free_parameters,
         p.low = same->low, p.high = same->high;
     start_at(problem.values(start->setting), search);
   } else {
-    const Solution first =
-        least_squares_from(problem.residuals(first_scatter * scales.full_scale), problem.count(),
-                           search.parameters, starts_of(search.parameters, free_parameters),
-                           {.tolerance = std::max(tolerance, 1e-9),
-                            .slopes = problem.slopes(first_scatter * scales.full_scale)});
+    SolverOptions options{.tolerance = std::max(tolerance, 1e-9),
+                          .slopes = problem.slopes(first_scatter * scales.full_scale)};
+    put_readings(points, options);
+    const Solution first = least_squares_from(
+        problem.residuals(first_scatter * scales.full_scale), problem.count(), search.parameters,
+        starts_of(search.parameters, free_parameters), options);
     out.scatter = scatter_of(first.residuals, points, scales);
     start_at(first.values, search);
   }
@@ -328,6 +343,7 @@ StaticFit fit_static(const std::vector<FreeParameter>& free_parameters,
                     .correlated = true,
                     .tolerance = tolerance,
                     .slopes = problem.slopes(out.scatter)};
+  put_readings(points, search.options);
   out.solution = start ? least_squares(search.residuals, search.count, search.parameters,
                                        search.constraints, search.options)
                        : least_squares_within(search);
@@ -335,8 +351,8 @@ StaticFit fit_static(const std::vector<FreeParameter>& free_parameters,
   out.constraints = search.constraints;
   out.setting = problem.setting(out.solution.values);
   if (!start)
-    widen(problem.slopes(out.scatter), problem.parameters(), problem.count(), settings, out.scatter,
-          outlier, out.solution);
+    widen(problem.slopes(out.scatter), problem.parameters(), problem.count(), settings,
+          search.options.weights, out.scatter, outlier, out.solution);
   out.solution.residuals.resize(points.size());
   for (const double r : out.solution.residuals) out.outliers += std::abs(r) > outlier * out.scatter;
 
@@ -367,6 +383,7 @@ Refit refit_of(const StaticFit& fit, std::span<const StaticPoint> points,
                  .options = {.outlier = outlier * fit.scatter},
                  .constraints = fit.constraints,
                  .data = points.size()};
+  put_readings(points, out.options);
   out.residuals = [held, residuals = held->problem.residuals(fit.scatter)](
                       std::span<const double> p, std::span<double> r) { return residuals(p, r); };
   out.options.slopes = [held, slopes = held->problem.slopes(fit.scatter)](

@@ -18,9 +18,15 @@ namespace {
 
 using Rowset = std::vector<std::size_t>;
 
+std::vector<double> at(const std::vector<double>& values, const Rowset& rows) {
+  std::vector<double> out;
+  for (const std::size_t i : rows) out.push_back(values[i]);
+  return out;
+}
+
 // Returns the problem of fitting the candidate to these rows.
-FitProblem problem_of(const Candidate& candidate, const std::vector<double>& measured,
-                      const Rowset& rows) {
+FitProblem problem_of(const Candidate& candidate, const Trial& trial, const Rowset& rows) {
+  const std::vector<double>& measured = trial.measured;
   auto residuals = [predict = candidate.predict, measured, rows,
                     values = std::vector<double>(measured.size())](std::span<const double> p,
                                                                    std::span<double> r) mutable {
@@ -28,11 +34,16 @@ FitProblem problem_of(const Candidate& candidate, const std::vector<double>& mea
     for (std::size_t i = 0; i < rows.size(); ++i) r[i] = values[rows[i]] - measured[rows[i]];
     return true;
   };
-  return {.residuals = std::move(residuals),
-          .count = rows.size(),
-          .parameters = candidate.parameters,
-          .options = candidate.options,
-          .constraints = candidate.constraints};
+  FitProblem out{.residuals = std::move(residuals),
+                 .count = rows.size(),
+                 .parameters = candidate.parameters,
+                 .options = candidate.options,
+                 .constraints = candidate.constraints};
+  if (!trial.weights.empty()) {
+    out.options.weights = at(trial.weights, rows);
+    out.options.variances = at(trial.variances, rows);
+  }
+  return out;
 }
 
 Rowset all_of(const std::vector<double>& measured) {
@@ -59,26 +70,12 @@ std::vector<Solution> solutions_of(const Candidate& candidate, FitProblem proble
   return out;
 }
 
-// Returns what the search minimises.
-double loss_of(const Solution& s, double outlier) {
-  double sum = 0;
-  for (const double r : s.residuals)
-    sum += outlier > 0 ? std::log1p(std::pow(r / outlier, 2)) : r * r;
-  return sum;
-}
-
 // Returns predicted - measured at every row.
 std::vector<double> misses(const Candidate& candidate, const std::vector<double>& measured,
                            std::span<const double> p) {
   std::vector<double> out(measured.size());
   if (!candidate.predict(p, out)) throw Refusal("model", "no value", "a value at every row", "");
   for (std::size_t i = 0; i < out.size(); ++i) out[i] -= measured[i];
-  return out;
-}
-
-std::vector<double> at(const std::vector<double>& values, const Rowset& rows) {
-  std::vector<double> out;
-  for (const std::size_t i : rows) out.push_back(values[i]);
   return out;
 }
 
@@ -92,7 +89,7 @@ std::vector<double> left_out_residuals(const Candidate& candidate, const Trial& 
   for (const Split& split : trial.splits) {
     Solution part = whole;
     if (split.fitted != rows) {
-      FitProblem some = problem_of(candidate, trial.measured, split.fitted);
+      FitProblem some = problem_of(candidate, trial, split.fitted);
       some.parameters = problem.parameters;
       some.constraints = problem.constraints;
       start_at(whole.values, some);
@@ -112,7 +109,7 @@ Solution solved(const Candidate& candidate, FitProblem& problem) {
   if (!candidate.starts.empty()) {
     all = solutions_of(candidate, problem);
     best = *std::ranges::min_element(
-        all, {}, [&](const Solution& s) { return loss_of(s, problem.options.outlier); });
+        all, {}, [&](const Solution& s) { return loss_of(s.residuals, problem.options); });
     start_at(best->values, problem);
   }
   if (!best || candidate.search_steps > 0 || candidate.search_tolerance > problem.options.tolerance)
@@ -129,7 +126,7 @@ Fit fit_of(const Candidate& candidate, const Trial& trial, double full_scale) {
   if (!out.refused.empty()) return out;
   const Rowset rows = trial.rows.empty() ? all_of(trial.measured) : trial.rows;
   try {
-    FitProblem problem = problem_of(candidate, trial.measured, rows);
+    FitProblem problem = problem_of(candidate, trial, rows);
     Solution found = solved(candidate, problem);
     out.parameters = found.estimates;
     out.fit = score(found.residuals, full_scale);
@@ -176,7 +173,7 @@ void check_constraints(std::span<const Candidate> candidates) {
 }
 
 Solution solve(const Candidate& candidate, const std::vector<double>& measured) {
-  FitProblem problem = problem_of(candidate, measured, all_of(measured));
+  FitProblem problem = problem_of(candidate, {.measured = measured}, all_of(measured));
   return solved(candidate, problem);
 }
 

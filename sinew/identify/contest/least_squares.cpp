@@ -104,7 +104,24 @@ class Scaled {
 // A direction counts as undetermined if its singular value is below this share of the largest.
 constexpr double undetermined_below = 1e-8;
 
-// Returns 1 + 2 sum of the autocorrelation, up to the lag at which noise dominates.
+// Returns how many readings are behind a residual.
+double readings_of(std::span<const double> weights, std::size_t i) {
+  return i < weights.size() ? weights[i] : 1;
+}
+
+}  // namespace
+
+double loss_of(std::span<const double> residuals, const SolverOptions& options, std::size_t count) {
+  const double outlier = options.outlier;
+  double sum = 0;
+  for (std::size_t i = 0; i < (count > 0 ? count : residuals.size()); ++i) {
+    const double square = residuals[i] * residuals[i];
+    sum += readings_of(options.weights, i) *
+           (outlier > 0 ? outlier * outlier * std::log1p(square / (outlier * outlier)) : square);
+  }
+  return sum;
+}
+
 double inflation_of(std::span<const double> r) {
   const std::size_t n = r.size();
   double mean = 0, c0 = 0;
@@ -121,6 +138,8 @@ double inflation_of(std::span<const double> r) {
   return sum;
 }
 
+namespace {
+
 // Computes everything about the solution at u except its values.
 class Uncertainty {
  public:
@@ -133,10 +152,12 @@ class Uncertainty {
     std::vector<std::size_t> free;
     for (std::size_t i = 0; i < n; ++i)
       if (!at_bound(u, i)) free.push_back(i);
-    out.freedom = static_cast<int>(model_.count()) - static_cast<int>(free.size());
+    double readings = 0;
+    for (std::size_t i = 0; i < model_.count(); ++i) readings += readings_of(options_.weights, i);
+    out.freedom = static_cast<int>(std::lround(readings)) - static_cast<int>(free.size());
 
     const Matrix jacobian = weighted_jacobian(u, free, out.residuals);
-    set_deviation(out);
+    set_deviation(free.size(), out);
     const Matrix cov = covariance(jacobian, free, out);
     write(u, free, cov, out);
   }
@@ -147,10 +168,11 @@ class Uncertainty {
     return u[i] <= model_.low(i) + margin || u[i] >= model_.high(i) - margin;
   }
 
-  double weight(double residual) const {
-    if (options_.outlier <= 0) return 1;
+  double weight(std::size_t i, double residual) const {
+    const double readings = readings_of(options_.weights, i);
+    if (options_.outlier <= 0) return readings;
     const double s = residual / options_.outlier;
-    return 1 / (1 + s * s);
+    return readings / (1 + s * s);
   }
 
   Matrix weighted_jacobian(const std::vector<double>& u, const std::vector<std::size_t>& free,
@@ -165,24 +187,32 @@ class Uncertainty {
       const std::span<double> column = j.column(i);
       if (!options_.slopes && !model_.column(u, free[i], column.data()))
         std::fill(column.begin(), column.end(), 0.0);
-      for (std::size_t k = 0; k < column.size(); ++k) column[k] *= std::sqrt(weight(residuals[k]));
+      for (std::size_t k = 0; k < column.size(); ++k)
+        column[k] *= std::sqrt(weight(k, residuals[k]));
     }
     return j;
   }
 
-  void set_deviation(Solution& out) const {
-    double plain = 0, weighted = 0, weights = 0;
-    for (const double r : out.residuals) {
+  void set_deviation(std::size_t free, Solution& out) const {
+    double plain = 0, weighted = 0, weights = 0, of_averages = 0;
+    for (std::size_t i = 0; i < out.residuals.size(); ++i) {
+      const double r = out.residuals[i], w = weight(i, r);
       plain += r * r;
-      weighted += weight(r) * r * r;
-      weights += weight(r);
+      of_averages += w * r * r;
+      weighted += w * (r * r + (i < options_.variances.size() ? options_.variances[i] : 0));
+      weights += w;
     }
     const auto count = static_cast<double>(out.residuals.size());
     out.rms = std::sqrt(plain / count);
     // Residuals that the loss ignores do not count as data.
-    const double freedom = weights - (count - out.freedom);
+    const double freedom = weights - static_cast<double>(free);
     out.standard_deviation = freedom > 0 ? std::sqrt(weighted / freedom) : 0;
     if (options_.correlated) out.inflation = inflation_of(out.residuals);
+    // Neighbouring averages that are correlated are of correlated readings, several each.
+    if (out.inflation > 1 && !options_.weights.empty()) {
+      const double readings = (out.freedom + static_cast<double>(free)) / count;
+      out.inflation = 1 + (out.inflation - 1) * readings * of_averages / weighted;
+    }
   }
 
   // Returns the covariance of the free scaled parameters; infinite where the data determine
@@ -285,31 +315,40 @@ class Cost final : public ceres::CostFunction {
   const Scaled& model_;
 };
 
-// Applies the loss to each residual: Ceres would apply it to the whole block. Residuals become
-// sqrt(rho(r^2)) with their sign; log1p is Cauchy's rho.
-Residuals with_loss(const Residuals& residuals, double outlier) {
-  if (outlier <= 0) return residuals;
-  return [&residuals, outlier](std::span<const double> p, std::span<double> r) {
+// Applies loss and weight to a residual, and returns the remaining share of its derivatives.
+double apply_loss(double outlier, double weight, double& r) {
+  const double of_weight = std::sqrt(weight);
+  double share = 1;
+  if (outlier > 0) {
+    const double s = r / outlier, root = std::sqrt(std::log1p(s * s));
+    if (root > 0) share = std::abs(s) / ((1 + s * s) * root);
+    r = std::copysign(outlier * root, r);
+  }
+  r *= of_weight;
+  return share * of_weight;
+}
+
+// Applies loss and weight to each residual: Ceres would apply a loss to the whole block. Residuals
+// become sqrt(w rho(r^2)) with their sign; log1p is Cauchy's rho.
+Residuals with_loss(const Residuals& residuals, const SolverOptions& options) {
+  if (options.outlier <= 0 && options.weights.empty()) return residuals;
+  return [&residuals, outlier = options.outlier, weights = std::span(options.weights)](
+             std::span<const double> p, std::span<double> r) {
     if (!residuals(p, r)) return false;
-    for (double& x : r) {
-      const double s = x / outlier;
-      x = std::copysign(outlier * std::sqrt(std::log1p(s * s)), x);
-    }
+    for (std::size_t i = 0; i < r.size(); ++i) apply_loss(outlier, readings_of(weights, i), r[i]);
     return true;
   };
 }
 
-// Applies the loss to residuals with their derivatives.
-Slopes with_loss(const Slopes& slopes, double outlier) {
-  if (outlier <= 0 || !slopes) return slopes;
-  return [&slopes, outlier](std::span<const double> p, std::span<double> r, std::span<double> by) {
+// Applies loss and weight to residuals with their derivatives.
+Slopes with_loss(const Slopes& slopes, const SolverOptions& options) {
+  if (!slopes || (options.outlier <= 0 && options.weights.empty())) return slopes;
+  return [&slopes, outlier = options.outlier, weights = std::span(options.weights)](
+             std::span<const double> p, std::span<double> r, std::span<double> by) {
     if (!slopes(p, r, by)) return false;
     std::vector<double> share;  // remaining share of each derivative
-    for (double& x : r) {
-      const double s = x / outlier, root = std::sqrt(std::log1p(s * s));
-      share.push_back(root > 0 ? std::abs(s) / ((1 + s * s) * root) : 1);
-      x = std::copysign(outlier * root, x);
-    }
+    for (std::size_t i = 0; i < r.size(); ++i)
+      share.push_back(apply_loss(outlier, readings_of(weights, i), r[i]));
     for (std::size_t k = 0; k < p.size(); ++k)
       for (std::size_t i = 0; i < r.size(); ++i) by[k * r.size() + i] *= share[i];
     return true;
@@ -366,8 +405,8 @@ Estimate scaled(Estimate e, std::string name, std::string unit, double factor) {
 Solution least_squares(const Residuals& residuals, std::size_t count,
                        std::span<const Parameter> parameters, const SolverOptions& options) {
   check_start(parameters, count);
-  const Residuals lossy = with_loss(residuals, options.outlier);
-  const Slopes lossy_slopes = with_loss(options.slopes, options.outlier);
+  const Residuals lossy = with_loss(residuals, options);
+  const Slopes lossy_slopes = with_loss(options.slopes, options);
   const Scaled model(lossy, lossy_slopes, count, parameters, options.difference);
   const Scaled plain(residuals, options.slopes, count, parameters, options.difference);
 
@@ -419,12 +458,7 @@ Solution least_squares_from(const Residuals& residuals, std::size_t count,
                             std::span<const Parameter> parameters,
                             std::span<const std::vector<double>> starts,
                             const SolverOptions& options) {
-  const auto cost = [&](const Solution& s) {
-    double sum = 0;
-    for (const double r : s.residuals)
-      sum += options.outlier > 0 ? std::log1p(std::pow(r / options.outlier, 2)) : r * r;
-    return sum;
-  };
+  const auto cost = [&](const Solution& s) { return loss_of(s.residuals, options); };
   std::unique_ptr<Solution> best;
   std::vector<Parameter> from(parameters.begin(), parameters.end());
   for (const std::vector<double>& start : starts) {

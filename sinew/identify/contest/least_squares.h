@@ -1,9 +1,10 @@
 // identify/contest/least_squares.h - least squares fit of parameters, with their uncertainty.
 //
-//   minimise  sum rho(r_i(p)^2)/2     by Levenberg-Marquardt (Ceres), p within bounds
+//   minimise  sum w_i rho(r_i(p)^2)/2 by Levenberg-Marquardt (Ceres), p within bounds
 //
-//   J     dr/dp at the solution, rows with the weights of the loss
-//   s^2   sum w r^2/(n - k)           n residuals, k parameters that are free
+//   J     dr/dp at the solution, rows with the weights of the readings and of the loss
+//   s^2   sum w (r^2 + v)/(n - k)     n readings, k parameters that are free, v variance among the
+//                                     readings of which a residual is the average
 //   cov   s^2 (J^T J)^-1              by singular values; directions that J does not determine are
 //                                     left out, and the parameters in them are not identifiable
 //
@@ -49,6 +50,9 @@ struct SolverOptions {
   // robust loss (rho = r^2). Cauchy's rho grows only with the logarithm of the residual.
   double outlier = 0;
   bool correlated = false;  // residuals are a time series
+  // Independent readings behind each of the first residuals, which are averages, and the variance
+  // among these readings. The others are single readings. Empty: all are.
+  std::vector<double> weights, variances;
   int most_steps = 200;
   // The search ends when a step reduces the sum of squares by less than this share. A larger value
   // suits many fits of little weight, for instance in cross-validation.
@@ -115,6 +119,14 @@ struct Solution {
 // start.
 Solution least_squares(const Residuals& residuals, std::size_t count,
                        std::span<const Parameter> parameters, const SolverOptions& options = {});
+
+// Returns what a search minimises, of the first `count` residuals; 0: all.
+double loss_of(std::span<const double> residuals, const SolverOptions& options,
+               std::size_t count = 0);
+
+// Returns 1 + 2 sum of the autocorrelation, up to the lag at which noise dominates: the number of
+// values of a series that count as one independent value.
+double inflation_of(std::span<const double> values);
 
 // Returns the best solution from several starts, the earlier of equal ones. Each of `starts` holds
 // one value per parameter.

@@ -37,6 +37,33 @@ struct Line {
   }
 };
 
+// A fit to averages with their weights and variances is that to all readings, with its intervals.
+TEST(LeastSquares, AnAverageWeighsAsItsReadings) {
+  const Line all(4, 0.3, 60);
+  const std::size_t ends[] = {0, 5, 25, 60};
+  Line grouped = all, few(0, 0, 3);
+  SolverOptions options;
+  for (std::size_t g = 0; g < 3; ++g) {
+    const auto n = static_cast<double>(ends[g + 1] - ends[g]);
+    double mean = 0, squares = 0;
+    for (std::size_t i = ends[g]; i < ends[g + 1]; ++i) {
+      grouped.x[i] = few.x[g];
+      mean += all.y[i] / n;
+      squares += all.y[i] * all.y[i] / n;
+    }
+    few.y[g] = mean;
+    options.weights.push_back(n);
+    options.variances.push_back(squares - mean * mean);
+  }
+  const Solution raw = least_squares(grouped.residuals(), 60, line_parameters);
+  const Solution averaged = least_squares(few.residuals(), 3, line_parameters, options);
+  EXPECT_EQ(averaged.freedom, raw.freedom);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(averaged.values[i], raw.values[i], 1e-7);
+    EXPECT_NEAR(averaged.estimates[i].standard_error, raw.estimates[i].standard_error, 1e-7);
+  }
+}
+
 TEST(LeastSquares, AStraightLineHasItsClosedForm) {
   const Line line(3);
   const Solution s = least_squares(line.residuals(), line.x.size(), line_parameters);

@@ -33,11 +33,7 @@ Moved moved(const Parameter& p, double value, double factor) {
 }
 
 double loss_of(const FitProblem& problem, std::span<const double> residuals) {
-  const double outlier = problem.options.outlier;
-  double sum = 0;
-  for (const double r : residuals.first(problem.data > 0 ? problem.data : problem.count))
-    sum += outlier > 0 ? outlier * outlier * std::log1p(r * r / (outlier * outlier)) : r * r;
-  return sum;
+  return loss_of(residuals, problem.options, problem.data > 0 ? problem.data : problem.count);
 }
 
 // The first steps show whether a loss is far beyond the limit, where its size is irrelevant.

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "sinew/identify/contest/least_squares.h"
 #include "sinew/identify/data/quality.h"
 
 namespace sinew::identify {
@@ -48,29 +49,65 @@ RowGroups cells_of(const std::vector<Setting>& settings, std::size_t rows, doubl
   return out;
 }
 
-// Returns the root mean square deviation of values from their group's average, as a share of the
-// largest value.
-double scatter_within(const RowGroups& groups, std::span<const double> values) {
-  std::vector<double> sum(groups.count), count(groups.count);
-  for (std::size_t row = 0; row < values.size(); ++row) {
-    sum[groups.of_row[row]] += values[row];
-    ++count[groups.of_row[row]];
+// Returns 1 for rows at which the values rise and -1 where they fall: after a turn, from a fiftieth
+// of their range on. Empty if less than a tenth of the rows rise, or fall.
+std::vector<double> directions_of(std::span<const double> values) {
+  const double least = 0.02 * (largest(values) - smallest(values));
+  std::vector<double> out;
+  double extreme = values[0], way = 1;
+  for (const double x : values) {
+    if (way * (x - extreme) > 0) extreme = x;
+    if (way * (extreme - x) > least) way = -way, extreme = x;
+    out.push_back(way);
   }
-  double squares = 0;
-  for (std::size_t row = 0; row < values.size(); ++row) {
-    const std::size_t group = groups.of_row[row];
-    squares += std::pow(values[row] - sum[group] / count[group], 2);
-  }
-  const double freedom = static_cast<double>(values.size() - groups.count);
-  return freedom > 0 && largest(values) > 0 ? std::sqrt(squares / freedom) / largest(values) : 0;
+  const auto rising = static_cast<std::size_t>(std::ranges::count(out, 1.0));
+  if (10 * std::min(rising, out.size() - rising) < out.size()) out.clear();
+  return out;
+}
+
+std::vector<double> rows_in(const RowGroups& groups) {
+  std::vector<double> out(groups.count);
+  for (const std::size_t group : groups.of_row) ++out[group];
+  return out;
+}
+
+double variance(std::span<const double> values) {
+  const auto n = static_cast<double>(values.size());
+  double mean = 0, sum = 0;
+  for (const double x : values) mean += x / n;
+  for (const double x : values) sum += (x - mean) * (x - mean) / n;
+  return sum;
+}
+
+// Returns how many of a series' values are independent; at most `blocks` averages are compared.
+double independent(std::span<const double> series) {
+  constexpr std::size_t blocks = 1000;
+  const std::size_t n = series.size(), each = 1 + (n - 1) / blocks;
+  std::vector<double> means(n / each);
+  for (std::size_t i = 0; i < means.size() * each; ++i)
+    means[i / each] += series[i] / static_cast<double>(each);
+  const double size = variance(series);
+  if (means.size() < 2 || !(size > 0)) return 1;
+  const double rows_per_one =
+      static_cast<double>(each) * variance(means) / size * inflation_of(means);
+  return std::max(1.0, static_cast<double>(n) / std::max(1.0, rows_per_one));
+}
+
+// Returns the values of each group, in the order of the rows.
+std::vector<std::vector<double>> values_in(const RowGroups& groups,
+                                           std::span<const double> values) {
+  std::vector<std::vector<double>> out(groups.count);
+  for (std::size_t row = 0; row < values.size(); ++row)
+    out[groups.of_row[row]].push_back(values[row]);
+  return out;
 }
 
 // Replaces the rows by the averages of their groups, with the line of the group's first row.
 void average(const RowGroups& groups, Measured& data) {
-  std::vector<double> count(groups.count);
+  const std::vector<double> count = rows_in(groups);
   std::vector<int> lines;
   for (std::size_t row = 0; row < data.rows(); ++row)
-    if (count[groups.of_row[row]]++ == 0) lines.push_back(data.lines[row]);
+    if (groups.of_row[row] == lines.size()) lines.push_back(data.lines[row]);
   for (Column& c : data.columns) {
     std::vector<double> mean(groups.count);
     for (std::size_t row = 0; row < data.rows(); ++row)
@@ -91,21 +128,43 @@ Measured settings_averaged(Measured data, std::string_view response, std::vector
       settings.push_back({c.values, c.name == "rest_length" || c.name == "branch"});
   const std::vector<double> kind(kinds.begin(), kinds.end());
   if (!kinds.empty()) settings.push_back({kind, true});
-  double steps = 4096;
+  std::vector<double> direction;
+  if (data.has("pressure") && !data.has("branch")) direction = directions_of(data["pressure"]);
+  if (!direction.empty()) settings.push_back({direction, true});
+  constexpr double finest = 4096;
+  double steps = finest;
   RowGroups groups = cells_of(settings, rows, steps);
   while (groups.count > averaged_rows && steps > 2) groups = cells_of(settings, rows, steps /= 2);
-  const double scatter = data.has(response) ? scatter_within(groups, data[response]) : 0;
+  std::vector<double> weights = rows_in(groups), variances(groups.count);
+  double squares = 0, sum = 0, top = 0;
+  if (data.has(response)) {
+    const std::vector<std::vector<double>> responses = values_in(groups, data[response]);
+    for (std::size_t g = 0; g < groups.count; ++g) {
+      variances[g] = variance(responses[g]);
+      squares += weights[g] * variances[g];
+      if (steps == finest) weights[g] = independent(responses[g]);
+    }
+    top = largest(data[response]);
+  }
+  for (const double w : weights) sum += w;
+  const double counted = std::min(sum, static_cast<double>(most_rows));
+  for (double& w : weights) w *= counted / sum;
+  const double freedom = static_cast<double>(rows - groups.count);
+  const double scatter = freedom > 0 && top > 0 ? std::sqrt(squares / freedom) / top : 0;
   average(groups, data);
+  data.weights = std::move(weights);
+  data.variances = std::move(variances);
   if (!kinds.empty()) {
     std::vector<bool> of_group(groups.count);
     for (std::size_t row = 0; row < rows; ++row) of_group[groups.of_row[row]] = kinds[row];
     kinds = std::move(of_group);
   }
   data.notes.push_back(fmt::format(
-      "{} rows are averaged to {} settings: within one each column but {} differs by at most "
+      "{} rows are averaged to {} settings{}: within one each column but {} differs by at most "
       "1/{:.0f} of its range, and that by {:.2g} % of the largest, rms: noise, or what no column "
-      "shows, such as filling and venting",
-      rows, data.rows(), response, steps, 100 * scatter));
+      "shows. An average weighs as its independent rows; together they count as {:.0f} readings",
+      rows, data.rows(), direction.empty() ? "" : ", rising and falling pressure apart", response,
+      steps, 100 * scatter, counted));
   return data;
 }
 

@@ -1,5 +1,14 @@
 // identify/data/averaged.h - averaging of long tables: a million rows of a sensor determine a law
 // no better than some thousands of averages, and take hundreds of times as long to fit.
+//
+// An average over a setting has the weight of its independent rows: their number, divided by
+//
+//   k var(m)/var(x) (1 + 2 sum of the autocorrelation of m)        at least 1
+//
+// x is the response in the order of the rows, m its averages over k consecutive ones. So a value
+// that was held and logged quickly does not outweigh the others. All averages together count as
+// 4000 readings at most, as the law's own errors are alike in neighbouring rows: a table that is
+// logged more densely gives the intervals of one that is just short enough not to be averaged.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +25,12 @@ namespace sinew::identify {
 inline constexpr std::size_t most_rows = 4000, averaged_rows = 2000;
 
 // Returns a table of more than 4000 rows without a time as averages over settings, with a note of
-// their number. The rows of a setting have the same rest length and branch, and are in one cell of
-// a grid over all other columns but `response`. The grid divides the range of each column into 4096
-// equal steps, halved until there are at most 2000 settings. The note also states the scatter of
-// the response within settings. Other tables are returned unchanged.
+// their number. The rows of a setting have the same rest length and branch - without a column of
+// branches, the same sign of the pressure's change - and are in one cell of a grid over all other
+// columns but `response`. The grid divides the range of each column into 4096 equal steps, halved
+// until there are at most 2000 settings; in such wider cells the response follows the columns, and
+// all rows count as independent. The note also states the scatter of the response within settings.
+// Other tables are returned unchanged.
 Measured settings_averaged(Measured data, std::string_view response);
 // Averages rows of two kinds, never of both together. `kinds` is the kind of each row, on
 // return that of each average. Empty: one kind.

@@ -67,6 +67,41 @@ TEST(Averaged, ThereAreNeverMoreThanTwoThousandSettings) {
   EXPECT_GT(m.rows(), averaged_rows / 8);
 }
 
+// All averages together count as a table that is just short enough not to be averaged.
+TEST(Averaged, AnAverageWeighsAsItsIndependentRows) {
+  // 100 settings; at the second length each reading is logged ten times over.
+  Measured m = sweep(100000);
+  std::vector<double> held(100);
+  for (std::size_t i = 0; i < m.rows(); ++i) {
+    if (i / 100 % 10 == 0) held[i % 100] = m["force"][i];
+    if (i % 2 == 1) m.columns[2].values[i] = held[i % 100];
+  }
+  const Measured out = settings_averaged(m, "force");
+  ASSERT_EQ(out.rows(), 100u);
+  double first = 0, second = 0;
+  for (std::size_t i = 0; i < 100; ++i) {
+    (i % 2 == 0 ? first : second) += out.weights[i];
+    EXPECT_NEAR(out.variances[i], 1, 0.6);
+  }
+  EXPECT_NEAR(first + second, most_rows, 1e-6);
+  EXPECT_NEAR(first / second, 10, 2);
+}
+
+TEST(Averaged, RisingAndFallingPressureAreAveragedApart) {
+  Measured m = sweep(100000);
+  for (std::size_t i = 0; i < m.rows(); ++i) {
+    const std::size_t step = i / 2 % 100;
+    m.columns[1].values[i] = static_cast<double>(std::min(step, 99 - step));
+    m.columns[2].values[i] = m.columns[1].values[i] + (step < 50 ? -8 : 8);
+  }
+  const Measured out = settings_averaged(m, "force");
+  for (std::size_t i = 0; i < out.rows(); ++i) {
+    const double pressure = out["pressure"][i];
+    if (pressure < 2 || pressure > 48) continue;
+    EXPECT_NEAR(std::abs(out["force"][i] - pressure), 8, 1e-9);
+  }
+}
+
 TEST(Averaged, RowsOfTwoKindsAreNotMixed) {
   std::vector<bool> fitted;
   for (int i = 0; i < 100000; ++i) fitted.push_back(i % 4 < 2);

@@ -478,9 +478,13 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
           candidate_of(law, joint, others ? &*others : nullptr, setup, constraints));
   check_constraints(candidates);
   Trial trial{.measured = std::vector<double>(data.rows(), 0.0),
+              .weights = data.weights,
+              .variances = data.variances,
               .has_band = false,
               .shows_left_out = held_out.has_value(),
               .model = model};
+  for (std::size_t i = 0; data.has("load") && i < trial.variances.size(); ++i)
+    trial.variances[i] *= std::pow(joint.torque()[i] / data["load"][i], 2);
   if (!held_out) trial.splits = {setup.moving ? last_thirds(data) : every_third(data)};
   fit_candidates(std::move(candidates), trial, report, done);
   refuse_if_all_are(report, data.file);

@@ -16,6 +16,7 @@
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/contest/fit.h"
 #include "sinew/identify/contest/provenance.h"
+#include "sinew/identify/data/averaged.h"
 #include "sinew/identify/motion/dynamic.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
@@ -62,6 +63,15 @@ bool is_among(const std::vector<Source>& sources, const std::string& path) {
   return std::ranges::find(sources, path, &Source::path) != sources.end();
 }
 
+// Averages a long recording to a hundredth of a period, as a swing is smooth.
+Measured swing_averaged(const Measured& data) {
+  constexpr std::size_t most = 4000;
+  if (data.rows() <= most) return data;
+  QuickChange quickest = quickest_change(data["time"], data["length"]);
+  quickest.duration *= 4;
+  return times_averaged(data, most, quickest);
+}
+
 std::vector<DecayRecord> records_of(std::vector<Source> sources, const DynamicSettings& settings,
                                     const SettingValues& values, const actuator::Actuator& a) {
   const std::vector<Source> held_out = held_out_tables(settings.hold_out, sources, {}, true);
@@ -78,7 +88,7 @@ std::vector<DecayRecord> records_of(std::vector<Source> sources, const DynamicSe
   const std::optional<double> exponent = values.given(settings.exponent);
   std::vector<DecayRecord> out;
   for (std::size_t i = 0; i < n; ++i) {
-    DecayRecord r{.data = read_measured(sources[i], decay_columns())};
+    DecayRecord r{.data = swing_averaged(read_measured(sources[i], decay_columns()))};
     r.stand = {.actuator = a,
                .mass = mass[i] / settings.count,
                .pressure = pressure[i],

@@ -172,10 +172,20 @@ Measured joined(const std::vector<Source>& sources, bool moving) {
         throw Refusal(more.file, "no column " + c.name, "the columns of " + sources[0].path, "");
       c.values.insert(c.values.end(), more[c.name].begin(), more[c.name].end());
     }
+    if (!out.weights.empty() || !more.weights.empty()) {
+      out.weights.resize(out.lines.size(), 1);
+      out.weights.insert(out.weights.end(), more.weights.begin(), more.weights.end());
+      out.variances.resize(out.lines.size());
+      out.variances.insert(out.variances.end(), more.variances.begin(), more.variances.end());
+    }
     out.lines.insert(out.lines.end(), more.lines.begin(), more.lines.end());
     out.notes.insert(out.notes.end(), more.notes.begin(), more.notes.end());
     out.file += ", " + more.file;
     recording.resize(out.rows(), static_cast<double>(k));
+  }
+  if (!out.weights.empty()) {
+    out.weights.resize(out.lines.size(), 1);
+    out.variances.resize(out.lines.size());
   }
   out.columns.push_back({.name = "recording", .unit = "1", .values = recording});
   return out;
