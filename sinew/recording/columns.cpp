@@ -271,7 +271,10 @@ void ColumnResolver::refuse_unit(std::size_t column, const WantedColumn& wanted,
 
 void check_columns(const Header& header, const char* setting, const Names& values,
                    config::Problems& problems) {
-  const std::vector<std::string_view> names = header.names();
+  std::vector<std::string_view> names = header.names();
+  // A condition after an @ has a unit, but no cells by which rows could be selected.
+  if (std::string_view(setting) == "where")
+    std::erase_if(names, [&](std::string_view name) { return !header.find(name); });
   for (const auto& [name, value] : values) {
     if (header.find(name) || std::ranges::find(names, name) != names.end()) continue;
     problems.add({{header.file, 0, 0},

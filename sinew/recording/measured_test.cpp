@@ -90,6 +90,12 @@ TEST(Measured, AMakersTableBecomesRows) {
   EXPECT_EQ(m["length"], (std::vector<double>{0.25, 0.25, 0.24}));
 }
 
+TEST(Measured, RowsCannotBeSelectedByACondition) {
+  const std::string said = problem("length [mm],force [N] @ pressure = 1 bar gauge\n250,100\n",
+                                   {.where = {{"pressure", "1"}}});
+  EXPECT_TRUE(says(said, "where: found \"pressure\"; expected a column of the file")) << said;
+}
+
 TEST(Measured, RowsThatAreNotCompleteAreLeftOutOnRequestOnly) {
   const std::string text = "pressure [kPa gauge],force [N]\n100,10\n,20\n300,nan\n400,40\n";
   const std::string said = problem(text);
