@@ -200,15 +200,16 @@ Candidate fill_candidate(const FillModel& model, const Curve& c, const ValveOpti
 }
 
 Report fill_contest(const Curve& c, const ValveOptions& options,
-                    std::span<const FillModel> models) {
+                    std::span<const FillModel> models, bool is_scored_elsewhere) {
   Report out{.full_scale = c.range()};
   std::vector<Candidate> candidates;
   for (const FillModel& model : models) candidates.push_back(fill_candidate(model, c, options));
   Split tenths;
   for (std::size_t i = 0; i < c.time.size(); ++i)
     (is_held_out(c, i) ? tenths.held_out : tenths.fitted).push_back(i);
-  fit_candidates(std::move(candidates),
-                 {.measured = c.pressure, .splits = {tenths}, .has_band = false}, out);
+  Trial trial{.measured = c.pressure, .has_band = false};
+  if (!is_scored_elsewhere) trial.splits = {tenths};
+  fit_candidates(std::move(candidates), trial, out);
   return out;
 }
 

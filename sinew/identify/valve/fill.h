@@ -44,9 +44,11 @@ std::vector<FreeValue> free_values(const FillModel& model, const Curve& curve,
 // until the report is concluded.
 Candidate fill_candidate(const FillModel& model, const Curve& curve, const ValveOptions& options);
 
-// Returns the fits of the models to the curve, scored on every second tenth of its way.
+// Returns the fits of the models to the curve, scored on every second tenth of its way unless
+// another record scores them.
 Report fill_contest(const Curve& curve, const ValveOptions& options,
-                    std::span<const FillModel> models = fill_models());
+                    std::span<const FillModel> models = fill_models(),
+                    bool is_scored_elsewhere = false);
 
 // Returns the predicted pressures at the times of the curve. Returns false if the values are not
 // valid.

@@ -177,7 +177,7 @@ ValveResult identify_fill(const Measured& data, const ValveOptions& options,
 
   ValveResult out = before(options);
   Report& report = out.report;
-  report = fill_contest(c, options);
+  report = fill_contest(c, options, fill_models(), other != nullptr);
   report.subject =
       fmt::format("{} of a chamber through a valve", c.fills() ? "filling" : "venting");
   report.quantity = "pressure";
