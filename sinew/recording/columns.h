@@ -112,6 +112,7 @@ using Names = std::map<std::string, std::string>;
 std::optional<std::size_t> column_of(const Header& header, const Names& names,
                                      std::string_view wanted);
 
+// Finds the columns of one header and their units. Faults are added to `problems`.
 class ColumnResolver {
  public:
   // Keeps references to all but `atmosphere`, which must outlive this object. `names` has the
