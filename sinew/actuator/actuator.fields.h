@@ -393,6 +393,10 @@ void fields(Visitor& v, Hysteresis& h) {
             .optional = true,
             .doc = "w_F, share of the tension by which filling pulls less and venting more"},
            h.width_per_tension);
+  if (h.width_per_pressure + 2 * h.width_per_tension >= 1)
+    units::report_conflict(
+        v, "width_per_tension", "a half-width that grows as fast as the pressure",
+        "width_per_pressure + 2 width_per_tension below 1", "a smaller width_per_pressure");
   v.number({.name = "volume_pressure",
             .unit = "Pa diff",
             .min = 0,

@@ -9,7 +9,8 @@
 //   P_f       friction, as a pressure [Pa]                            w_P, w_F [-], below 1
 //   z         the only state [Pa]       L, L_max  length, with straight threads [m]
 //   V, V_max  volume of the braid, its maximum (braid.h) [m3]
-//   F/F_P     tension over its slope by the pressure: pressure that pulls, at most 2 P_g [Pa]
+//   F/F_P     tension over its slope by the pressure: pressure that pulls [Pa]; at most twice the
+//             part of P_g above the threshold of the effectiveness
 //
 // With w_F alone filling and venting pull 1 - w_F and 1 + w_F of F, where F is linear in P_g.
 //
@@ -22,8 +23,10 @@
 // high pressure and released at low pressure returns that much energy: set P_V where muscles brake.
 //
 // Not in the thesis, which draws the loops (figure 2-8) and models those of length by dry friction
-// ([33], loss.h). Valid for any pressure; bounded by w; P_e grows with the pressure. The play does
-// not depend on the path: any steps through the same turning points lead to the same z.
+// ([33], loss.h). Valid for any pressure; bounded by w. Where w grows by less than 1 per pascal,
+// P_e grows with the pressure, and the play does not depend on the path: any steps through the same
+// turning points lead to the same z. This is so for w_F = 0, and for w_P + 2 w_F < 1 where the
+// slope F_P does not fall with the pressure.
 #pragma once
 
 #include <algorithm>
@@ -42,6 +45,12 @@ constexpr bool has_hysteresis(const Hysteresis& h) {
          h.width_per_tension > 0;
 }
 
+// Returns the bound of F/F_P at a gauge pressure [Pa]. It is 0 at the threshold, below which the
+// pressure does not pull, so that F/F_P has no jump there.
+inline double most_pulling_pressure(const Actuator& a, double gauge_pressure) {
+  return 2 * std::max(gauge_pressure - a.effectiveness.threshold, 0.0);
+}
+
 // Returns F/F_P, the part of the gauge pressure that pulls [Pa]; 0 where the muscle does not pull
 // or its threshold takes the pressure.
 inline double pulling_pressure(const Actuator& a, double length, double gauge_pressure,
@@ -50,7 +59,7 @@ inline double pulling_pressure(const Actuator& a, double length, double gauge_pr
   const double slope =
       tension_per_pressure(a, length, gauge_pressure, atmosphere, EffectivenessSlope::included);
   if (!(force > 0 && slope > 0 && gauge_pressure > 0)) return 0;
-  return std::min(force / slope, 2 * gauge_pressure);
+  return std::min(force / slope, most_pulling_pressure(a, gauge_pressure));
 }
 
 // Returns w, the bound of the friction [Pa]; below the atmosphere that at the atmosphere.

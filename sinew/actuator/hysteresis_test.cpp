@@ -139,12 +139,17 @@ TEST(Hysteresis, IsBoundedAndGrowsWithThePressure) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> pressures(-0.2 * bar, 7 * bar), lengths(2.5, 4.0),
       steps(0, 0.1 * bar);
-  const Actuator a = with({.half_width = 0.05 * bar,
-                           .width_per_pressure = 0.3,
-                           .width_per_contraction = 0.4 * bar,
-                           .volume_pressure = 20 * bar});
+  Actuator a = with({.half_width = 0.05 * bar,
+                     .width_per_pressure = 0.3,
+                     .width_per_contraction = 0.4 * bar,
+                     .volume_pressure = 20 * bar});
   double z = 0;
-  for (int i = 0; i < 5000; ++i) {
+  for (int i = 0; i < 10000; ++i) {
+    if (i == 5000) {  // half the friction from the tension, with a bladder that pulls by itself
+      a.hysteresis.width_per_tension = 0.2;
+      a.effectiveness = {.threshold = 0.3 * bar};
+      a.bladder = {.stiffness = 600, .rest_length = 3 * inch};
+    }
     const double l = lengths(random) * inch, p = pressures(random);
     const EffectivePressure low = effective_pressure(a, l, p, z),
                             high = effective_pressure(a, l, p + steps(random), z);

@@ -83,8 +83,12 @@ void MuscleLaw::write_slopes(double length, const StaticPoint& point, double for
   if (branch != 0) {
     const double by_width = -branch * by_pressure, share = a.hysteresis.width_per_tension;
     const double pulls = actuator::pulling_pressure(a, length, p, atmosphere_);
-    if (share > 0 && pulls > 0 && pulls < 2 * p)
-      add_pulling_slopes(a, length, p, atmosphere_, by_width * share, out);
+    if (share > 0 && pulls > 0) {
+      if (pulls < actuator::most_pulling_pressure(a, p))
+        add_pulling_slopes(a, length, p, atmosphere_, by_width * share, out);
+      else
+        by.effectiveness.threshold -= 2 * by_width * share;
+    }
     by.hysteresis = {.half_width = by_width,
                      .width_per_pressure = by_width * std::max(p, 0.0),
                      .width_per_tension = by_width * pulls};
