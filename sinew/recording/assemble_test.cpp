@@ -292,6 +292,20 @@ TEST_F(AssembleTest, ASecondClockIsThatOfTheColumnsToItsRight) {
   }
 }
 
+TEST_F(AssembleTest, AUnitOfAClockIsThatOfEachClockOfItsName) {
+  const std::string file =
+      put("a.csv", "time,flexor_pressure [bar gauge],time,tension [N]\n0,1,0,5\n10,2,20,6\n");
+  Mapping of_clock, of_column;
+  map_channel(of_clock, "time", "time");
+  of_clock.clock.unit = "ms";
+  map_unit(of_column, "time", "ms");
+  for (const Mapping& m : {of_clock, of_column}) {
+    const AssembledRecording a = take({file}, m);
+    EXPECT_EQ(series(a, "/muscle/flexor/pressure").time_ns[1], 10'000'000);
+    EXPECT_EQ(series(a, "/muscle/flexor/tension").time_ns[1], 20'000'000);
+  }
+}
+
 TEST_F(AssembleTest, SecondsAndTheirRestAreOneStamp) {
   std::string text = "header.stamp.sec,header.stamp.nanosec,w [rad]\n";
   for (int i = 95; i < 205; ++i)

@@ -197,6 +197,15 @@ std::optional<std::size_t> column_of(const Header& header, const Names& names,
   return given == names.end() ? header.called(wanted) : header.find(given->second);
 }
 
+std::optional<std::string> given_unit(const Header& header, const Names& units,
+                                      std::size_t column) {
+  for (const auto& [name, unit] : units)
+    if (header.find(name) == column) return unit;
+  for (const auto& [name, unit] : units)
+    if (header.columns[column].is_called(name)) return unit;
+  return std::nullopt;
+}
+
 std::string ColumnResolver::name_of(std::string_view wanted) const {
   const auto given = names_.find(std::string(wanted));
   return given == names_.end() ? std::string(wanted) : given->second;
@@ -228,8 +237,7 @@ void ColumnResolver::refuse_repeated(std::size_t column) {
 
 std::string ColumnResolver::unit_of(std::size_t column) const {
   const Heading& h = header_.columns[column];
-  for (const auto& [name, unit] : units_)
-    if (header_.find(name) == column) return unit;
+  if (const auto given = given_unit(header_, units_, column)) return *given;
   // Sinew's own channels have only "Pa".
   const bool is_channel = h.name.starts_with('/') && h.name.ends_with("pressure");
   if (!is_channel || h.unit != "Pa") return h.unit;

@@ -112,6 +112,10 @@ using Names = std::map<std::string, std::string>;
 std::optional<std::size_t> column_of(const Header& header, const Names& names,
                                      std::string_view wanted);
 
+// Returns the unit that a user gives a column, if any. A unit for a name that several columns have
+// is the unit of each.
+std::optional<std::string> given_unit(const Header& header, const Names& units, std::size_t column);
+
 // Finds the columns of one header and their units. Faults are added to `problems`.
 class ColumnResolver {
  public:

@@ -119,9 +119,9 @@ class RawReader {
   // Finds the unit of a clock of numbers.
   void find_unit(std::size_t column) {
     const Heading& h = grid_.headings()[column];
-    const auto given = source_.clock_units.find(h.name);
     std::string unit = columns_.unit_of(column);
-    if (given != source_.clock_units.end() && !source_.units.contains(h.name)) unit = given->second;
+    const auto of_clock = given_unit(grid_.header(), source_.clock_units, column);
+    if (of_clock && !given_unit(grid_.header(), source_.units, column)) unit = *of_clock;
     for (const ClockNames& known : clock_names())
       if (unit.empty() && std::ranges::count(known.names, units::lower(h.name)) > 0)
         unit = known.unit;
