@@ -141,6 +141,20 @@ TEST_F(AssembleTest, AKeptColumnIsInANearUnitOfSinew) {
   EXPECT_DOUBLE_EQ(series(a, "/recorded/p").columns[0][1], 0.6);
 }
 
+TEST_F(AssembleTest, AnOffsetOfAKeptColumnIsInItsUnit) {
+  Mapping m;
+  m.keep_others = true;
+  map_offset(m, "p", "10 kPa diff");
+  map_offset(m, "wide", "1 cm");
+  const std::string file =
+      put("a.csv", "time [s],p [bar gauge],wide [mm],x [foo]\n0,1,1,1\n1,2,2,1\n");
+  const AssembledRecording a = take({file}, m);
+  EXPECT_DOUBLE_EQ(series(a, "/recorded/p").columns[0][0], 1.1);
+  EXPECT_DOUBLE_EQ(series(a, "/recorded/wide").columns[0][0], 11);
+  map_offset(m, "x", "1");
+  EXPECT_NE(error_of({file}, m).find("Sinew does not have the unit \"foo\""), std::string::npos);
+}
+
 TEST_F(AssembleTest, AChannelsOwnNameAndUnitKeepEveryBit) {
   const AssembledRecording a = take({put("a.csv",
                                          "time [s],/joint/elbow/angle [rad],/foot/position.x [m],"

@@ -9,6 +9,7 @@
 #include "sinew/config/utf8.h"
 #include "sinew/units/letters.h"
 #include "sinew/units/spelling.h"
+#include "sinew/units/unit.h"
 
 namespace sinew::recording {
 
@@ -188,7 +189,14 @@ FileUnit own_unit(const std::string& unit) {
 }
 
 config::Parsed parse_offset(const std::string& text, std::string_view wanted, double atmosphere) {
-  return config::parse_quantity(text, config::difference_unit(wanted), atmosphere);
+  if (!units::is_unit(wanted))
+    return {0, config::Mistake{config::in_quotes(text),
+                               fmt::format("no offset: Sinew does not have the unit {}",
+                                           config::in_quotes(wanted)),
+                               "another unit for the column"}};
+  const auto [bare, reference] = units::unit_and_reference(wanted);
+  return config::parse_quantity(
+      text, reference.empty() ? std::string(wanted) : fmt::format("{} diff", bare), atmosphere);
 }
 
 std::optional<std::size_t> column_of(const Header& header, const Names& names,

@@ -94,7 +94,8 @@ FileUnit own_unit(const std::string& unit);
 std::variant<FileUnit, std::string> file_unit(const std::string& unit, const std::string& wanted,
                                               double atmosphere);
 
-// Parses a difference that is added to a quantity, "200 mm".
+// Parses a difference that is added to a quantity, "200 mm" or "0.1 bar diff". The result is in the
+// unit `wanted`.
 config::Parsed parse_offset(const std::string& text, std::string_view wanted, double atmosphere);
 
 // Quantity that a column should have.
