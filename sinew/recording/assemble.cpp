@@ -17,6 +17,8 @@
 #include "sinew/recording/mapping.h"
 #include "sinew/recording/recorded.h"
 #include "sinew/recording/stamp.h"
+#include "sinew/units/spelling.h"
+#include "sinew/units/unit.h"
 
 namespace sinew::recording {
 namespace {
@@ -347,7 +349,7 @@ class Matcher {
     const signals::Topic& topic = out_.topics[target.topic];
     const std::string& channel_unit = topic.fields[target.field].unit;
     const bool is_bare = unit.empty() && (channel_unit == "1" || channel_unit == "count");
-    if (topic.name.starts_with("/recorded/")) return own_unit(unit).conversion;
+    if (topic.name.starts_with("/recorded/")) return kept(f, unit, target);
     if (unit == channel_unit || is_bare) return {};
     const RecordedColumn& column = files_[f].columns[c];
     const WantedColumn quantity = wanted(target);
@@ -361,6 +363,27 @@ class Matcher {
     }
     const auto found = resolver(headers_[f]).convert(c, quantity);
     return found ? found->conversion : Conversion{};
+  }
+
+  // Returns the conversion to the unit of a kept channel, which is that of the first file with it.
+  Conversion kept(std::size_t f, const std::string& unit, Target target) {
+    const std::string& channel_unit = out_.topics[target.topic].fields[target.field].unit;
+    const FileUnit own = own_unit(unit);
+    if ((unit.empty() ? "1" : own.shown) == channel_unit) return own.conversion;
+    const auto reference = [](std::string_view of) { return units::unit_and_reference(of)[1]; };
+    if (units::is_unit(channel_unit) && reference(own.shown) == reference(channel_unit)) {
+      const auto found = file_unit(unit, channel_unit, atmosphere_);
+      if (const auto* converted = std::get_if<FileUnit>(&found)) return converted->conversion;
+    }
+    const auto first = std::ranges::find(out_.columns, target, &Matched::target);
+    problem(files_[f].file, name_of(target),
+            unit.empty() ? "a column without a unit" : "the unit " + config::in_quotes(unit),
+            first == out_.columns.end()
+                ? config::in_quotes(channel_unit)
+                : fmt::format("{}, its unit in {}", config::in_quotes(channel_unit),
+                              files_[first->file].file),
+            "a common unit in both headers");
+    return {};
   }
 
   // Requires that all fields of a topic have the same clock.

@@ -408,6 +408,25 @@ TEST_F(AssembleTest, RecordingsThatFollowEachOtherAreOne) {
   EXPECT_NE(error_of({a, b}).find("join them at their ends"), std::string::npos);
 }
 
+TEST_F(AssembleTest, AKeptColumnOfSeveralFilesIsInTheUnitOfTheFirst) {
+  const Mapping all{.keep_others = true};
+  const auto files = [&](const std::string& first, const std::string& second) {
+    return std::vector{put("a.csv", "time [s]," + first + "\n0,1\n1,1\n"),
+                       put("b.csv", "time [s]," + second + "\n0,2\n1,2\n")};
+  };
+  const auto last = [&](const std::string& first, const std::string& second) {
+    return series(take(files(first, second), all, {.at_end = true}), "/recorded/A").columns[0][3];
+  };
+  EXPECT_DOUBLE_EQ(last("A [mm]", "A [m]"), 2000);
+  EXPECT_NEAR(last("A [bar]", "A [psi]"), 0.1378951, 1e-7);
+  EXPECT_DOUBLE_EQ(last("A [bar gauge]", "A [mbar(g)]"), 0.002);
+  for (const char* second : {"A [N]", "A [bar abs]", "A"}) {
+    const std::string text = error_of(files("A [bar gauge]", second), all, {.at_end = true});
+    for (const char* part : {"a.csv", "b.csv", "bar gauge", "/recorded/A"})
+      EXPECT_NE(text.find(part), std::string::npos) << text;
+  }
+}
+
 TEST_F(AssembleTest, ARateStandsInPlaceOfAColumn) {
   Mapping m = angle_is("w", "rad");
   m.clock.rate = "200 Hz";
