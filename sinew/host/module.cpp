@@ -1,12 +1,15 @@
 #include "sinew/host/module.h"
 
 #include <dlfcn.h>
+#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -54,41 +57,69 @@ void* open_module(const char* file) {
 
 void* function_of(void* module, const char* name) { return dlsym(module, name); }
 
-void continue_as(std::vector<std::string> words, const std::string& if_missing,
-                 const std::string& input) {
-  if (!input.empty()) {
-    std::FILE* file = ::fdopen(::memfd_create("input", 0), "w+");
-    if (!file || std::fwrite(input.data(), 1, input.size(), file) != input.size() ||
-        std::fflush(file) != 0 || ::dup2(::fileno(file), STDIN_FILENO) < 0)
-      throw std::system_error(errno, std::generic_category(), "the input of " + words[0]);
-    std::rewind(file);
-  }
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  std::fflush(stdout);
-  ::execvp(arguments[0], arguments.data());
-  if (errno == ENOENT) throw std::runtime_error(if_missing);
-  throw std::system_error(errno, std::generic_category(), words[0] + ": cannot be started");
+namespace {
+
+// Returns whether a folder of the PATH has the program; folders without access are passed over.
+bool is_there(const std::string& program) {
+  std::error_code none;
+  if (program.find('/') != std::string::npos) return fs::is_regular_file(program, none);
+  const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nothing sets it
+  std::istringstream folders(path ? path : "/bin:/usr/bin");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (fs::is_regular_file(fs::path(folder) / program, none)) return true;
+  return false;
 }
 
-int exit_code_of(const std::vector<std::string>& words, const std::string& if_missing) {
-  constexpr int not_started = 127;
+// Reports why a program did not start. A folder of the PATH without access hides the reason that no
+// other folder has the program.
+[[noreturn]] void not_started(int reason, const std::string& program,
+                              const std::string& if_missing) {
+  if (reason == ENOENT || (reason == EACCES && !is_there(program)))
+    throw std::runtime_error(if_missing);
+  throw std::system_error(reason, std::generic_category(), program + ": cannot be started");
+}
+
+std::vector<char*> arguments_of(std::vector<std::string>& words) {
+  std::vector<char*> out;
+  for (std::string& word : words) out.push_back(word.data());
+  out.push_back(nullptr);
+  return out;
+}
+
+// Makes the text this program's stdin; returns false with errno if that fails.
+bool read_from(const std::string& text) {
+  const int memory = ::memfd_create("input", 0);
+  if (memory < 0) return false;
+  std::FILE* file = ::fdopen(memory, "w+");
+  if (!file || std::fwrite(text.data(), 1, text.size(), file) != text.size() ||
+      std::fflush(file) != 0 || ::dup2(memory, STDIN_FILENO) < 0)
+    return false;
+  std::rewind(file);
+  return true;
+}
+
+}  // namespace
+
+void continue_as(std::vector<std::string> words, const std::string& if_missing,
+                 const std::string& input) {
+  if (!input.empty() && !read_from(input))
+    throw std::system_error(errno, std::generic_category(), "the input of " + words[0]);
+  const std::vector<char*> arguments = arguments_of(words);
   std::fflush(stdout);
-  const pid_t child = ::fork();
-  if (child < 0) throw std::system_error(errno, std::generic_category(), words[0]);
-  if (child == 0) {
-    try {
-      continue_as(words, "");
-    } catch (const std::exception&) {
-      ::_exit(not_started);
-    }
-  }
+  ::execvp(arguments[0], arguments.data());
+  not_started(errno, words[0], if_missing);
+}
+
+int exit_code_of(std::vector<std::string> words, const std::string& if_missing) {
+  const std::vector<char*> arguments = arguments_of(words);
+  std::fflush(stdout);
+  pid_t child = 0;
+  const int reason =
+      ::posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ);
+  if (reason != 0) not_started(reason, words[0], if_missing);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
-  if (!WIFEXITED(status)) return 1;
-  if (WEXITSTATUS(status) == not_started) throw std::runtime_error(if_missing);
-  return WEXITSTATUS(status);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
 }  // namespace sinew::host

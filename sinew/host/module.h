@@ -25,8 +25,8 @@ void* function_of(void* module, const char* name);
 [[noreturn]] void continue_as(std::vector<std::string> words, const std::string& if_missing,
                               const std::string& input = "");
 
-// Runs another program to its end and returns its exit code, 1 if a signal ended it. Throws
-// std::runtime_error with `if_missing` if it cannot be started.
-int exit_code_of(const std::vector<std::string>& words, const std::string& if_missing);
+// Runs another program to its end and returns its exit code, 1 if a signal ended it. Throws like
+// continue_as().
+int exit_code_of(std::vector<std::string> words, const std::string& if_missing);
 
 }  // namespace sinew::host
