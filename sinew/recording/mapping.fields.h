@@ -21,9 +21,10 @@ void fields(Visitor& v, TableSettings& t) {
           .optional = true,
           .doc = "true: rows with equal times are spread evenly up to the next time"},
          t.spread_times);
-  v.flag(
-      {.name = "drop_incomplete", .optional = true, .doc = "true: leave out rows without a time"},
-      t.drop_incomplete);
+  v.flag({.name = "drop_incomplete",
+          .optional = true,
+          .doc = "true: leave out rows that lack a time, a number or a cell"},
+         t.drop_incomplete);
   v.texts({.name = "columns",
            .optional = true,
            .doc = "header of a file that has none, `name [unit]` for each column"},
@@ -73,7 +74,7 @@ void fields(Visitor& v, Mapping& m) {
                   c.channel);
            g.text({.name = "unit",
                    .optional = true,
-                   .doc = "unit of its numbers, if its header has none"},
+                   .doc = "unit of its numbers, in place of the header's"},
                   c.unit);
            g.number({.name = "scale",
                      .unit = "1",
