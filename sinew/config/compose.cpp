@@ -317,17 +317,21 @@ Node Composer::compose(const std::string& path, const std::vector<std::string>& 
   std::vector<std::string> files = {path}, others;
   for (const std::string& set : sets)
     (trimmed(set.substr(0, set.find('='))) == "robot" ? files : others).push_back(set);
-  auto there = read_.find(files);
-  if (there == read_.end()) {
-    Node root = load(path);
-    for (std::size_t i = 1; i < files.size(); ++i) apply_set(root, files[i]);
-    root = with_robot(std::move(root));
-    resolve_files(root);
-    there = read_.emplace(std::move(files), placed(std::move(root))).first;
-  }
-  Node root = there->second;
+  Node root = read(path, std::move(files));
   for (const std::string& set : others) apply_set(root, set);
   return root;
+}
+
+// Returns the tree of these files, which are read at the first call.
+const Node& Composer::read(const std::string& path, std::vector<std::string> files) {
+  const std::lock_guard lock(mutex_);
+  const auto there = read_.find(files);
+  if (there != read_.end()) return there->second;
+  Node root = load(path);
+  for (std::size_t i = 1; i < files.size(); ++i) apply_set(root, files[i]);
+  root = with_robot(std::move(root));
+  resolve_files(root);
+  return read_.emplace(std::move(files), placed(std::move(root))).first->second;
 }
 
 }  // namespace sinew::config

@@ -19,6 +19,7 @@
 #pragma once
 
 #include <map>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,13 +32,18 @@ namespace sinew::config {
 // written. Throws Error.
 Node compose(const std::string& path, const std::vector<std::string>& sets = {});
 
-// Composes files again and again, each time with other settings. A file is read once.
+// Composes files again and again, each time with other settings. A file is read once. Files that
+// only a value of the tree names, such as a table of valve timing, are not read here.
 class Composer {
  public:
-  // Returns the same as compose(), for the contents that the files had at the first call.
+  // Returns the same as compose(), for the contents that the files had at the first call. Threads
+  // may call it at the same time.
   Node compose(const std::string& path, const std::vector<std::string>& sets = {});
 
  private:
+  const Node& read(const std::string& path, std::vector<std::string> files);
+
+  std::mutex mutex_;                               // guards the map; its nodes never change
   std::map<std::vector<std::string>, Node> read_;  // by path and settings of `robot`
 };
 

@@ -80,8 +80,13 @@ void summarize(const Prepared& p, const run::Outcome& outcome, RunResult& out) {
 
 RunResult run_once(const std::string& file, const std::vector<std::string>& sets,
                    bool allow_unreachable) {
+  config::Composer files;
+  return run_once(file, sets, allow_unreachable, files);
+}
+
+RunResult run_once(const std::string& file, const std::vector<std::string>& sets,
+                   bool allow_unreachable, config::Composer& files) {
   return refusing([&](RunResult& out) {
-    config::Composer files;
     const Prepared p({0, file, sets}, files, allow_unreachable);
     summarize(p, run::run(p.experiment), out);
   });
@@ -89,7 +94,8 @@ RunResult run_once(const std::string& file, const std::vector<std::string>& sets
 
 void run_many(const Many& many) {
   std::vector<std::unique_ptr<Prepared>> going;
-  config::Composer files;
+  config::Composer own;
+  config::Composer& files = many.files ? *many.files : own;
   const auto prepare = [&](const RequestedRun& requested) {
     std::unique_ptr<Prepared> p;
     RunResult refused = refusing([&](RunResult&) {

@@ -70,19 +70,22 @@ void add_case(const Case& one, Point& out) {
   out.sets.insert(out.sets.end(), one.sets.begin(), one.sets.end());
 }
 
-// The points of a sweep by their number; the sample's shares are drawn once.
+// The points of a sweep by their number. The sample's shares are drawn once, and the files of the
+// runs are read once.
 class Points {
  public:
   explicit Points(const Sweep& s)
       : sweep_(s), shares_(s.sample ? shares(*s.sample) : std::vector<double>{}) {}
 
   Point at(std::size_t index) const;
+  config::Composer& files() const { return files_; }
 
  private:
   void add_sampled(std::size_t index, Point& out) const;
 
   const Sweep& sweep_;
   std::vector<double> shares_;
+  mutable config::Composer files_;
 };
 
 void Points::add_sampled(std::size_t index, Point& out) const {
@@ -143,14 +146,15 @@ std::string searched_status(const Search& search, const Largest& found, const Ru
 }
 
 // Runs a search; its row has the figures of the largest value that held.
-Row searched(const Sweep& s, std::size_t index, Point point, bool first) {
+Row searched(const Sweep& s, const Points& points, std::size_t index, bool first) {
+  Point point = points.at(index);
   const Search& search = *s.largest;
   RunResult best, last;
   int runs = 0;
   const auto holds = [&](double number) {
     std::vector<std::string> sets = point.sets;
     sets.push_back(search.axis.set(search.axis.at(number)));
-    last = run_once(point.experiment, sets, s.allow_unreachable);
+    last = run_once(point.experiment, sets, s.allow_unreachable, points.files());
     if (++runs == 1 && first && last.ok()) check_keys(s, last.summary);
     const bool all = last.ok() && std::ranges::all_of(search.where, [&](const Condition& c) {
                        return c.holds(last.summary);
@@ -174,9 +178,10 @@ Row searched(const Sweep& s, std::size_t index, Point point, bool first) {
 }
 
 Row row_of(const Sweep& s, const Points& points, std::size_t index, bool first) {
+  if (s.largest) return searched(s, points, index, first);
   Point point = points.at(index);
-  if (s.largest) return searched(s, index, std::move(point), first);
-  const RunResult result = run_once(point.experiment, point.sets, s.allow_unreachable);
+  const RunResult result =
+      run_once(point.experiment, point.sets, s.allow_unreachable, points.files());
   return single(s, index, std::move(point), result, first);
 }
 
@@ -198,8 +203,11 @@ void run_in_thread(const Sweep& s, const Points& points, int lanes, const Next& 
   const auto result = [&](std::size_t index, const RunResult& its) {
     done(single(s, index, points.at(index), its, false));
   };
-  run_many(
-      {.next = wanted, .done = result, .allow_unreachable = s.allow_unreachable, .lanes = lanes});
+  run_many({.next = wanted,
+            .done = result,
+            .allow_unreachable = s.allow_unreachable,
+            .lanes = lanes,
+            .files = &points.files()});
 }
 
 // Runs these points on threads and passes their rows to done(), one at a time. Begins no further

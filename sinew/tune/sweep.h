@@ -23,6 +23,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/config/compose.h"
 #include "sinew/tune/axis.h"
 #include "sinew/tune/figure.h"
 #include "sinew/tune/sample.h"
@@ -143,6 +144,11 @@ void check(const Sweep&);
 
 // Checks and runs the sweep. Throws after its first run if the summary lacks a key that is probably
 // misspelt. Returns the completed rows and the known ones, in the points' order.
+//
+// All runs of one call use the files as they were when the first of these runs read them, also if a
+// file is edited meanwhile. This holds for the experiment, its base, the robot and the robot's
+// files with their gains. It does not hold for a table of valve timing, which each run reads, nor
+// between processes of a dispatcher, nor between calls, such as the generations of a tuning.
 std::vector<Row> sweep(const Sweep&, const Options&);
 
 // Runs points of a sweep by their number, for a dispatcher. A row does not depend on the
@@ -177,6 +183,9 @@ struct RunResult {
 // figures.
 RunResult run_once(const std::string& file, const std::vector<std::string>& sets,
                    bool allow_unreachable = false);
+// Uses files that were read before.
+RunResult run_once(const std::string& file, const std::vector<std::string>& sets,
+                   bool allow_unreachable, config::Composer& files);
 
 // The largest value for which a condition holds, searched from below.
 //
@@ -223,7 +232,8 @@ struct Many {
   // Receives the results, in any order. Must not throw.
   std::function<void(std::size_t point, RunResult)> done;
   bool allow_unreachable = false;
-  int lanes = 8;  // largest number; 1: one after the other
+  int lanes = 8;                      // largest number; 1: one after the other
+  config::Composer* files = nullptr;  // absent: files of this call alone
 };
 // Runs experiment files in parallel in the lanes of the processor (run/simulation/lanes.h). Each
 // result equals that of run_once().

@@ -235,6 +235,36 @@ TEST(Sweep, FindsTheLargestValueThatHolds) {
   EXPECT_EQ(sweep(always, {})[0].cells.back(), "holds to the last value");
 }
 
+TEST(Sweep, AFileThatChangesMeanwhileChangesNoRow) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / "sinew-sweep-of-one-version";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  const std::string file = (folder / "own.toml").string();
+  const auto put = [&](int seed) {
+    std::ofstream(file) << "format = \"sinew.experiment/1\"\nbase = \"" << lever
+                        << "\"\nseed = " << seed << "\n";
+  };
+  Sweep s{.experiment = file,
+          .axes = {parse_axis("joint.lever.angle_gain=0.02,0.03,0.04 %/count")},
+          .report = parse_figures("air_used_kg, duration_s")};
+  const auto rows_of = [&](bool edit, int threads) {
+    put(1);
+    std::vector<std::vector<std::string>> cells;
+    for (const Row& row : sweep(s, {.threads = threads, .done = [&](const Row&) {
+                                      if (edit) put(2);
+                                    }}))
+      cells.push_back(row.cells);
+    return cells;
+  };
+  const auto still = rows_of(false, 1);
+  EXPECT_EQ(rows_of(true, 1), still);
+  EXPECT_EQ(rows_of(true, 2), still);
+  put(2);
+  EXPECT_NE(sweep(s, {})[0].cells, still[0]) << "the edit changes a run";
+  fs::remove_all(folder);
+}
+
 TEST(Csv, QuotesWhatNeedsIt) {
   EXPECT_EQ(csv_line({"a", "b,c", "d\"e", ""}), "a,\"b,c\",\"d\"\"e\",\n");
 }
