@@ -236,7 +236,8 @@ class Matcher {
     for (const ColumnMapping& c : mapping_.columns) {
       const auto channel = channels_.exact(c.channel);
       const bool is_clock = std::ranges::any_of(files_, [&](const Recorded& file) {
-        return std::ranges::count(file.clocks, c.name, &Clock::column) > 0;
+        return std::ranges::any_of(file.clocks,
+                                   [&](const Clock& clock) { return clock.is_called(c.name); });
       });
       const bool is_there = is_clock || std::ranges::any_of(headers_, [&](const Header& header) {
                               return header.find(c.name).has_value();

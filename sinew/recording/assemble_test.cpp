@@ -397,6 +397,19 @@ TEST_F(AssembleTest, AUnitOfTheClockIsGivenAsThatOfAnyColumn) {
   EXPECT_EQ(series(a, "/joint/elbow/angle").time_ns[1], 10'000'000);
 }
 
+TEST_F(AssembleTest, AClockIsCalledByItsNameByItsHeadingOrByTheEndOfItsName) {
+  const std::string file = put("a.csv", "log.t [s],w [rad]\n0,1\n10,2\n");
+  for (const char* name : {"log.t", "log.t [s]", "t"}) {
+    Mapping of_column = angle_is("w"), of_clock = angle_is("w");
+    map_channel(of_column, "time", "log.t");
+    map_unit(of_column, name, "ms");
+    map_channel(of_clock, "time", name);
+    of_clock.clock.unit = "ms";
+    for (const Mapping& m : {of_column, of_clock})
+      EXPECT_EQ(series(take({file}, m), "/joint/elbow/angle").time_ns[1], 10'000'000) << name;
+  }
+}
+
 TEST_F(AssembleTest, RecordingsThatFollowEachOtherAreOne) {
   const std::string a = put("a.csv", "time [s],elbow_angle [rad]\n0,1\n0.01,2\n");
   const std::string b = put("b.csv", "time [s],elbow_angle [rad]\n7,3\n7.01,4\n");

@@ -106,8 +106,10 @@ class RawReader {
       if (source_.rate.empty()) out.first = grid_.dialect.first;
       return;
     }
-    for (const std::size_t used : clock_.columns())
+    for (const std::size_t used : clock_.columns()) {
       out.clock += (out.clock.empty() ? "" : " and ") + grid_.headings()[used].name;
+      out.clock_headings.push_back(grid_.headings()[used]);
+    }
     if (!is_numbers() || source_.dates == "excel") return;
     find_unit(clock_.columns().front());
     if (!note_.empty()) out.notes.push_back(note_);

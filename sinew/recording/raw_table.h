@@ -23,11 +23,12 @@ struct RawColumn : Heading {
 // Table of measurements in the order of the file.
 struct RawTable {
   std::string file;
-  int header_line = 0;             // 0: the header is not in the file
-  std::vector<RawColumn> columns;  // without those of the clock
-  std::vector<double> time;        // since the first row  [s]; empty: the file has no clock
-  double first = 0;                // the first row's own time, if the clock holds numbers  [s]
-  std::string clock;               // columns with the times: "Zeit", "Datum and Uhrzeit"
+  int header_line = 0;                  // 0: the header is not in the file
+  std::vector<RawColumn> columns;       // without those of the clock
+  std::vector<double> time;             // since the first row  [s]; empty: the file has no clock
+  double first = 0;                     // the first row's own time, if the clock holds numbers  [s]
+  std::string clock;                    // columns with the times: "Zeit", "Datum and Uhrzeit"
+  std::vector<Heading> clock_headings;  // of these columns
   std::string start;  // instant of the first row, "2026-11-24T10:15:30.125"; empty: unknown
   // Time of the first row since 1970 or, without dates, since a midnight [ns]; UTC if the table has
   // a zone.

@@ -33,8 +33,11 @@ std::string first_bytes(const std::string& path) {
 
 // Adds the columns of one clock; times count from `origin` if the clock has one.
 void add_clock(RawTable& table, std::optional<std::int64_t> origin, Recorded& out) {
-  Clock clock{
-      .column = table.clock, .origin = origin, .has_date = table.has_date, .zone = table.zone};
+  Clock clock{.column = table.clock,
+              .origin = origin,
+              .has_date = table.has_date,
+              .zone = table.zone,
+              .headings = std::move(table.clock_headings)};
   const std::int64_t late = origin && table.instant ? *table.instant - *origin : 0;
   const double first = origin ? 0 : table.first;
   clock.time_ns.reserve(table.time.size());

@@ -24,6 +24,12 @@ struct Clock {
   std::optional<std::int64_t> origin;
   bool has_date = true;
   std::optional<std::int64_t> zone = {};  // local minus UTC [ns]; absent: the file gives no zone
+  std::vector<Heading> headings = {};     // of a table's columns with the times
+
+  // Returns whether a user may call the clock, or one of its columns, by this name.
+  bool is_called(std::string_view name) const {
+    return column == name || Header{.columns = headings}.find(name).has_value();
+  }
 };
 
 // Column of a recording, named "Winkel", "log.angle", "/joint/hip/angle" or "/foot/position.x".
