@@ -83,7 +83,7 @@ std::string option_at(std::string_view whole, std::size_t at, std::size_t& taken
   if (!is_one_of(name, settings) || rest.size() < 2) return "";
   const bool named = std::ranges::count(renamed, name, &Renamed::setting) > 0;
   const bool value = rest[0] == '=' && rest[1] != ' ' && rest[1] != '=';
-  const bool begins_name = is_letter_of_a_name(rest[1]) || rest[1] == '/';  // of a channel
+  const bool begins_name = is_letter_of_a_name(rest[1]) || rest[1] == '/';  // as a channel
   if (!(named ? rest[0] == '.' && begins_name : value)) return "";
   taken += 1;
   if (!rest.substr(1).starts_with("true")) return option_of(name) + " ";

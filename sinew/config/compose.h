@@ -44,7 +44,7 @@ class Composer {
   const Node& read(const std::string& path, std::vector<std::string> files);
 
   std::mutex mutex_;                               // guards the map; its nodes never change
-  std::map<std::vector<std::string>, Node> read_;  // by path and settings of `robot`
+  std::map<std::vector<std::string>, Node> read_;  // keys: path, settings of `robot`
 };
 
 // Returns "experiment" for format = "sinew.experiment/1"; empty if there is no such key.

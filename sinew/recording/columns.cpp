@@ -221,7 +221,7 @@ std::string ColumnResolver::name_of(std::string_view wanted) const {
 
 void ColumnResolver::refuse_missing(const WantedColumn& wanted) {
   const std::string name = name_of(wanted.name);
-  const auto end = header_.find(name);  // of a longer name, such as that of a channel
+  const auto end = header_.find(name);  // end of a longer name, such as a channel's
   const std::string near =
       end ? header_.columns[*end].name : config::closest_in_quotes(name, header_.names());
   problems_.add({{header_.file, header_.line, 1},
@@ -277,7 +277,7 @@ void ColumnResolver::refuse_unit(std::size_t column, const WantedColumn& wanted,
     if (h.name != wanted.name)
       problem.found += fmt::format(" of the column {}", config::in_quotes(h.name));
     problem.try_this = advice;
-    if (advice.starts_with("a quantity such as"))  // of another dimension
+    if (advice.starts_with("a quantity such as"))  // unit of another dimension
       problem.try_this =
           fmt::format("names.{}=NAME of another column, or units.{}=\"{}\" if this unit is wrong",
                       wanted.name, h.name, usual);

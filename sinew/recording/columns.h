@@ -50,7 +50,7 @@ std::string_view without_brackets(std::string_view text);
 // Header of one file.
 struct Header {
   std::string file;
-  int line = 0;  // of the names; 0: not in the file
+  int line = 0;  // line of the names; 0: not in the file
   std::vector<Heading> columns;
 
   // Returns the first column with that name or heading, if it exists.

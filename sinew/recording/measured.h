@@ -48,7 +48,7 @@ struct Measured {
   std::string file;
   std::vector<Column> columns;
   std::vector<int> lines;  // line numbers in the file, one per row
-  // Of rows that are averages: independent readings behind each, and their variance in the
+  // For rows that are averages: independent readings behind each, and their variance in the
   // response. Empty: each row is one reading.
   std::vector<double> weights, variances;
   std::vector<std::string> notes;  // parts that were left out

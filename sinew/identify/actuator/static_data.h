@@ -28,7 +28,7 @@ struct StaticPoint {
   Branch branch = Branch::unknown;
   bool fitted = true;   // false: held out
   double weight = 1;    // independent readings of which it is the average
-  double variance = 0;  // of the force among these readings [N2]
+  double variance = 0;  // variance of the force among these readings [N2]
 };
 
 struct Zero {

@@ -73,7 +73,7 @@ std::vector<Split> each_row_held_out(std::size_t rows);
 // Rows that all candidates are fitted to and tested on.
 struct Trial {
   std::vector<double> measured;            // at every row
-  std::vector<double> weights, variances;  // of every row, as in SolverOptions; empty: readings
+  std::vector<double> weights, variances;  // one per row, as in SolverOptions; empty: readings
   std::vector<std::size_t> rows;           // fitted rows; empty: all
   std::vector<Split> splits;
 

@@ -46,7 +46,7 @@ constexpr ColumnSpec time_of_reading{
 
 struct Layout {
   const Known* known = nullptr;
-  std::string unit;  // of the known quantity, as the file or the user gives it
+  std::string unit;  // unit of the known quantity, as the file or the user gives it
   std::vector<ColumnSpec> sensors;
 };
 
