@@ -416,7 +416,8 @@ Zero add_table(const Measured& m, const StaticInput& input, StaticData& data) {
     if (m.has("branch")) point.branch = m["branch"][i] > 0 ? Branch::fill : Branch::vent;
     if (!m.weights.empty()) {
       point.weight = m.weights[i];
-      point.variance = m.variances[i] * std::pow(m.has("load") ? force[i] / m["load"][i] : 1, 2);
+      const double per_response = m.has("load") ? units::standard_gravity : 1;  // [N/kg], [1]
+      point.variance = m.variances[i] * per_response * per_response;
     }
     data.points.push_back(point);
   }

@@ -110,6 +110,21 @@ TEST(StaticData, ATableThatIsLoggedMoreDenselyGivesTheSameLaw) {
   }
 }
 
+TEST(StaticData, TheScatterOfALoadIsThatOfItsWeight) {
+  Measured m{.file = "loads.csv",
+             .columns = {{"load", "kg", {0, 5, 20}},
+                         {"pressure", "Pa gauge", {1e5, 2e5, 4e5}},
+                         {"length", "m", {0.2, 0.22, 0.24}}},
+             .lines = {2, 3, 4}};
+  m.weights = {3, 3, 3};
+  m.variances = {1e-4, 1e-4, 1e-4};
+  StaticData data;
+  add_points(m, {.rest_length = rest}, data);
+  ASSERT_EQ(data.points.size(), 3u);
+  for (const StaticPoint& p : data.points)
+    EXPECT_DOUBLE_EQ(p.variance, 1e-4 * units::standard_gravity * units::standard_gravity);
+}
+
 TEST(StaticData, BranchesAndZerosOfARecordingAreFound) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> force(-30, 30), pressure(-10, 10);

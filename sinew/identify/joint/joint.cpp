@@ -247,15 +247,13 @@ bool of_muscles(std::string_view name) {
   return false;
 }
 
-double square_sum(const Solution& s) {
-  return s.rms * s.rms * static_cast<double>(s.residuals.size());
-}
-
 // Returns a description of another solution with a different muscle parameter, if the residuals do
 // not exclude it: by less than ten times the noise's variance. Empty if no other exists.
-std::string other_solution(const Solution& best, const Solution& other) {
+std::string other_solution(const SolverOptions& options, const Solution& best,
+                           const Solution& other) {
   const double s2 = best.standard_deviation * best.standard_deviation;
-  if (square_sum(other) - square_sum(best) > 10 * s2 + 1e-9 * square_sum(best)) return "";
+  const double least = loss_of(best.residuals, options);
+  if (loss_of(other.residuals, options) - least > 10 * s2 + 1e-9 * least) return "";
   for (const Estimate& e : best.estimates) {
     const double there = other[e.name].value;
     const bool matters = of_muscles(e.name) && e.name != "c1";
@@ -273,10 +271,11 @@ std::string error_text(const Combination& c) {
 
 // Throws Refusal with the parameters that the data do not separate, or with another solution that
 // fits as well, unless all muscle parameters are determined.
-void refuse_inseparable(const FitProblem&, std::span<const Solution> all_starts, Solution& s) {
+void refuse_inseparable(const FitProblem& problem, std::span<const Solution> all_starts,
+                        Solution& s) {
   std::string which, ambiguous;
   for (const Solution& other : all_starts)
-    if (ambiguous.empty()) ambiguous = other_solution(s, other);
+    if (ambiguous.empty()) ambiguous = other_solution(problem.options, s, other);
   for (const Estimate& e : s.estimates) {
     const bool matters = of_muscles(e.name);
     if (matters && e.free && (e.at_bound || !e.identifiable))
@@ -483,8 +482,8 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
               .has_band = false,
               .shows_left_out = held_out.has_value(),
               .model = model};
-  for (std::size_t i = 0; data.has("load") && i < trial.variances.size(); ++i)
-    trial.variances[i] *= std::pow(joint.torque()[i] / data["load"][i], 2);
+  for (std::size_t i = 0; !data.has("torque") && i < trial.variances.size(); ++i)
+    trial.variances[i] *= std::pow(joint.torque_per_load(i), 2);
   if (!held_out) trial.splits = {setup.moving ? last_thirds(data) : every_third(data)};
   fit_candidates(std::move(candidates), trial, report, done);
   refuse_if_all_are(report, data.file);

@@ -243,6 +243,80 @@ TEST(Joint, AMassOnALeverGivesTheSameAsItsTorque) {
   EXPECT_NEAR(a.effectiveness.c0, b.effectiveness.c0, 1e-6);
 }
 
+// The scatter of an averaged load gives the intervals of the torque's scatter, also at the pose that
+// only the limb loads.
+TEST(Joint, TheScatterOfALoadIsThatOfItsTorque) {
+  const Truth t{.rest = 1.5 * pi + 0.9};
+  Measured by_torque = poses(t, false, 0.002, 4);
+  JointSetup s = setup_of(t);
+  s.lever = 0.15;
+  s.down = 1.5 * pi;
+  s.limb = 0.3;
+  const auto per_lever = [&](std::size_t i) {
+    return -s.gravity * std::sin(by_torque["angle"][i] - s.down);
+  };
+  s.limb_lever = by_torque["torque"][7] / per_lever(7) / s.limb;
+  Measured by_load = by_torque;
+  by_load.columns[2] = {"load", "kg", {}};
+  constexpr double variance_of_load = 1e-6;  // [kg2]
+  for (std::size_t i = 0; i < by_torque.rows(); ++i) {
+    const double total = by_torque["torque"][i] / per_lever(i);
+    by_load.columns[2].values.push_back(i == 7 ? 0 : (total - s.limb * s.limb_lever) / s.lever);
+    by_load.weights.push_back(5);
+    by_load.variances.push_back(variance_of_load);
+    by_torque.weights.push_back(5);
+    by_torque.variances.push_back(variance_of_load * std::pow(per_lever(i) * s.lever, 2));
+  }
+  const JointResult a = identify_joint(by_torque, {}, s, "round_pressure");
+  const JointResult b = identify_joint(by_load, {}, s, "round_pressure");
+  const std::vector<Estimate>&of_torque = a.report.best().parameters,
+        &of_load = b.report.best().parameters;
+  for (std::size_t i = 0; i < of_torque.size(); ++i) {
+    EXPECT_GT(of_torque[i].standard_error, 0) << of_torque[i].name;
+    EXPECT_NEAR(of_load[i].standard_error, of_torque[i].standard_error,
+                1e-5 * of_torque[i].standard_error)
+        << of_torque[i].name;
+  }
+}
+
+// Averages of ten readings each leave the same solutions open as all readings.
+TEST(Joint, AveragesAreRefusedAsTheirReadingsAre) {
+  const Truth t{.c1 = 0, .origin = 0.06, .origin_angle = 1.2};
+  JointSetup s = setup_of(t);
+  s.keep_force = true;
+  s.actuator.effectiveness = {.c0 = t.c0};
+  for (const double noise : {0.002, 0.02, 0.05, 0.1, 0.2, 0.4}) {
+    const Measured exact = poses(t, false, 0, 5, 40);
+    Measured averages = exact, all = exact;
+    for (Column& c : all.columns) c.values.clear();
+    all.lines.clear();
+    averages.weights.assign(exact.rows(), 10);
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal(0, noise);
+    for (std::size_t i = 0; i < exact.rows(); ++i) {
+      double mean = 0, squares = 0;
+      for (int k = 0; k < 10; ++k) {
+        const double off = normal(random);
+        mean += off / 10;
+        squares += off * off / 10;
+        for (std::size_t c = 0; c < exact.columns.size(); ++c)
+          all.columns[c].values.push_back(exact.columns[c].values[i] + (c == 2 ? off : 0));
+        all.lines.push_back(static_cast<int>(all.lines.size()) + 2);
+      }
+      averages.columns[2].values[i] += mean;
+      averages.variances.push_back(squares - mean * mean);
+    }
+    const auto kind_of = [](const std::string& text) {
+      return text.find("fit alike") != text.npos           ? 2
+             : text.find("cannot be separated") != text.npos ? 1
+                                                           : 0;
+    };
+    for (const char* model : {"round", "hinge"})
+      EXPECT_EQ(kind_of(refused(averages, s, model)), kind_of(refused(all, s, model)))
+          << noise << model << refused(averages, s, model) << refused(all, s, model);
+  }
+}
+
 TEST(Joint, WhatCannotBeUsedIsReported) {
   const Truth t;
   const Measured good = poses(t, false, 0.001, 1);

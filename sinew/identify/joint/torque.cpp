@@ -28,6 +28,10 @@ JointTorque::JointTorque(const Measured& data, const JointSetup& setup)
   put_recordings(data);
 }
 
+double JointTorque::torque_per_load(std::size_t row) const {
+  return -setup_.gravity * setup_.lever * std::sin(angle_[row] - setup_.down);
+}
+
 void JointTorque::put_recordings(const Measured& data) {
   recording_.assign(rows(), 0.0);
   if (data.has("recording")) recording_ = data["recording"];

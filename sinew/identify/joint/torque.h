@@ -40,6 +40,8 @@ class JointTorque {
   bool has_flexor() const { return !flexor_.empty(); }
   bool has_extensor() const { return !extensor_.empty(); }
   const std::vector<double>& torque() const { return torque_; }  // load torques [N m]
+  // Returns the growth of a row's torque per mass at the lever [N m/kg].
+  double torque_per_load(std::size_t row) const;
   // Return 1 if flexion raises the angle, else -1; and the number of rows.
   double sign() const { return sign_; }
   std::size_t rows() const { return angle_.size(); }

@@ -154,7 +154,7 @@ JointNames names_of(const JointSettings& settings) {
 
 // Averages a long table: poses by their settings, a motion over time.
 Measured poses_averaged(Measured all) {
-  const std::string_view response = all.has("load") ? "load" : "torque";
+  const std::string_view response = all.has("torque") ? "torque" : "load";
   return times_averaged(settings_averaged(std::move(all), response), 8000, "angle");
 }
 
