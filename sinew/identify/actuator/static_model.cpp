@@ -249,8 +249,9 @@ Parameter parameter_of(FreeParameter free_parameter, const StaticScales& s) {
     case half_width:
       return make(0.01 * p, 0, 0.3 * p, 0.01 * p);
     case width_per_pressure:
-    case width_per_tension:
       return make(0.01, 0, 0.3, 0.01);
+    case width_per_tension:
+      return make(0.01, 0, 0.2, 0.01);  // widened at most to 0.4, the largest value of a file
     case end_loss:
       return make(0, -0.3 * l, 0.15 * l, 0.02 * l);
     case series:

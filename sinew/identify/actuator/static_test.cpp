@@ -296,17 +296,20 @@ TEST(Static, HysteresisThatGrowsWithThePressureComesBack) {
 TEST(Static, HysteresisThatGrowsWithTheForceComesBack) {
   const StaticResult found =
       of_both_branches([](StaticPoint& p) { p.force *= 1 - 0.025 * static_cast<int>(p.branch); });
+  int shares = 0;
   for (const Estimate& e : found.report.best().parameters) {
     if (e.name != "width_per_tension" && e.name != "width_per_pressure") continue;
     const bool is_share = e.name == "width_per_tension";
     EXPECT_LE(e.at_bound ? 0 : e.low, is_share ? 0.025 : 0);
     EXPECT_GE(e.at_bound ? 0 : e.high, is_share ? 0.025 : 0);
     if (!is_share) continue;
+    ++shares;
     EXPECT_GT(e.low, 0.01);
     ASSERT_TRUE(e.profile);
     EXPECT_TRUE(e.profile->pinned);
     EXPECT_EQ(found.muscles[0].actuator.hysteresis.width_per_tension, e.value);
   }
+  EXPECT_EQ(shares, 1);
   for (const double contraction : {0.0, 0.05, 0.12}) {
     StaticPoint p{.length = rest * (1 - contraction), .pressure = 6 * bar, .rest_length = rest};
     const double loop = 0.05 * predicted(truth(), {.rest_length = rest}, p);
@@ -318,6 +321,15 @@ TEST(Static, HysteresisThatGrowsWithTheForceComesBack) {
     }
     EXPECT_NEAR(found_loop, loop, 0.05 * loop) << contraction;
   }
+}
+
+// A file holds at most 0.4 of the force: friction beyond that ends there.
+TEST(Static, HysteresisThatGrowsWithTheForceFitsIntoAFile) {
+  const StaticResult found =
+      of_both_branches([](StaticPoint& p) { p.force *= 1 - 0.55 * static_cast<int>(p.branch); });
+  const double share = found.muscles[0].actuator.hysteresis.width_per_tension;
+  EXPECT_GT(share, 0.2);
+  EXPECT_LE(share, 0.4);
 }
 
 // Three muscles of one make, whose ends take the same length from each.

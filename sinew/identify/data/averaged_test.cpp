@@ -95,11 +95,17 @@ TEST(Averaged, RisingAndFallingPressureAreAveragedApart) {
     m.columns[2].values[i] = m.columns[1].values[i] + (step < 50 ? -8 : 8);
   }
   const Measured out = settings_averaged(m, "force");
+  int above = 0, below = 0;
   for (std::size_t i = 0; i < out.rows(); ++i) {
     const double pressure = out["pressure"][i];
     if (pressure < 2 || pressure > 48) continue;
-    EXPECT_NEAR(std::abs(out["force"][i] - pressure), 8, 1e-9);
+    const double away = out["force"][i] - pressure;
+    EXPECT_NEAR(std::abs(away), 8, 1e-9);
+    ++(away > 0 ? above : below);
   }
+  // At each of two lengths, the 47 pressures from 2 to 48.
+  EXPECT_EQ(above, 94);
+  EXPECT_EQ(below, 94);
 }
 
 TEST(Averaged, RowsOfTwoKindsAreNotMixed) {
