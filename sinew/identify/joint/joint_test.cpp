@@ -243,8 +243,8 @@ TEST(Joint, AMassOnALeverGivesTheSameAsItsTorque) {
   EXPECT_NEAR(a.effectiveness.c0, b.effectiveness.c0, 1e-6);
 }
 
-// The scatter of an averaged load gives the intervals of the torque's scatter, also at the pose that
-// only the limb loads.
+// The scatter of an averaged load gives the intervals of the torque's scatter, also at the pose
+// that only the limb loads.
 TEST(Joint, TheScatterOfALoadIsThatOfItsTorque) {
   const Truth t{.rest = 1.5 * pi + 0.9};
   Measured by_torque = poses(t, false, 0.002, 4);
@@ -307,9 +307,9 @@ TEST(Joint, AveragesAreRefusedAsTheirReadingsAre) {
       averages.variances.push_back(squares - mean * mean);
     }
     const auto kind_of = [](const std::string& text) {
-      return text.find("fit alike") != text.npos           ? 2
+      return text.find("fit alike") != text.npos             ? 2
              : text.find("cannot be separated") != text.npos ? 1
-                                                           : 0;
+                                                             : 0;
     };
     for (const char* model : {"round", "hinge"})
       EXPECT_EQ(kind_of(refused(averages, s, model)), kind_of(refused(all, s, model)))
