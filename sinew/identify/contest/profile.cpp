@@ -32,8 +32,15 @@ Moved moved(const Parameter& p, double value, double factor) {
   return {to, std::abs(to - value) > 0.25 * std::abs(wanted - value)};
 }
 
+// Returns the loss of all readings, those within averages included.
 double loss_of(const FitProblem& problem, std::span<const double> residuals) {
-  return loss_of(residuals, problem.options, problem.data > 0 ? problem.data : problem.count);
+  const std::size_t data = problem.data > 0 ? problem.data : problem.count;
+  const std::vector<double>&weights = problem.options.weights,
+        &variances = problem.options.variances;
+  double out = loss_of(residuals, problem.options, data);
+  for (std::size_t i = 0; i < std::min(data, variances.size()); ++i)
+    out += weights[i] * variances[i];
+  return out;
 }
 
 // The first steps show whether a loss is far beyond the limit, where its size is irrelevant.

@@ -1,8 +1,8 @@
 // identify/contest/profile.h - profiles of parameters: growth of a law's error when one parameter
 // is held at another value and all others are fitted again.
 //
-//   error at x   sqrt(S(x)/S)            S(x): smallest sum of squares with the parameter at x,
-//                                        S: the smallest of all
+//   error at x   sqrt(S(x)/S)            S(x): smallest sum of squares of all readings with the
+//                                        parameter at x, S: the smallest of all
 //   pinned       S(x) > S + t^2 s^2 i    at half and at twice the value
 //
 //   t            quantile 0.975 of Student's t

@@ -53,6 +53,45 @@ TEST(Profiles, OfALinearLawAreParabolas) {
   }
 }
 
+// Averages with their weights and variances give the errors of all readings.
+TEST(Profiles, OfAveragesAreThoseOfTheirReadings) {
+  constexpr std::size_t each = 12;
+  const FitProblem exact = line(0.3, 0.2, 0.01);
+  FitProblem averages = exact, all = exact;
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal(0, 0.2);
+  std::vector<double> off, mean(exact.count);
+  for (std::size_t i = 0; i < exact.count; ++i) {
+    double squares = 0;
+    for (std::size_t k = 0; k < each; ++k) {
+      off.push_back(normal(random));
+      mean[i] += off.back() / each;
+      squares += off.back() * off.back() / each;
+    }
+    averages.options.weights.push_back(each);
+    averages.options.variances.push_back(squares - mean[i] * mean[i]);
+  }
+  averages.residuals = [exact, mean](std::span<const double> p, std::span<double> r) {
+    exact.residuals(p, r);
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] -= mean[i];
+    return true;
+  };
+  all.count = off.size();
+  all.residuals = [exact, off](std::span<const double> p, std::span<double> r) {
+    std::vector<double> few(exact.count);
+    exact.residuals(p, few);
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] = few[i / each] - off[i];
+    return true;
+  };
+  const auto of_averages = profiles_of(averages, solved(averages));
+  const auto of_all = profiles_of(all, solved(all));
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(of_averages[i]->pinned, of_all[i]->pinned);
+    for (std::size_t k = 0; k < Profile::factors.size(); ++k)
+      EXPECT_NEAR(of_averages[i]->error[k], of_all[i]->error[k], 1e-6);
+  }
+}
+
 TEST(Profiles, OfWeakDataPinNothing) {
   const FitProblem problem = line(0.3, 0.2, 2);
   for (const auto& profile : profiles_of(problem, solved(problem))) EXPECT_FALSE(profile->pinned);
