@@ -162,8 +162,8 @@ actuator::Prediction prediction_of(const StaticResult& result, const StaticMuscl
   return out;
 }
 
-ReadingFactor reading_factor(const actuator::Actuator& a, const ForceReading& r,
-                             double atmosphere) {
+ReadingFactor reading_factor(const actuator::Actuator& a, const ForceReading& r, double atmosphere,
+                             double weight) {
   constexpr double strength = 0.02, form = 0.01, left_out = 3;
   const double force = actuator::clamped_tension(a, r.length, 0, r.gauge_pressure, atmosphere);
   const double ratio = force > 0 ? r.force / force : 0;
@@ -180,7 +180,7 @@ ReadingFactor reading_factor(const actuator::Actuator& a, const ForceReading& r,
   out.law = 1 + (ratio - 1) / (1 + std::pow(form * most / strength, 2));
   const double left = 1 - out.law / ratio;
   if (p.other_68 > 0) {
-    const double t = p.other_68 * std::hypot(most, by_force);
+    const double t = p.other_68 * std::hypot(most, weight);
     out.share = std::sqrt((left_out + std::pow(left / t, 2)) / (left_out + 1));
   }
   return out;
@@ -198,7 +198,7 @@ actuator::Actuator scale_force(actuator::Actuator a, double factor) {
 }
 
 actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double rest_length,
-                                    double atmosphere, double share_factor) {
+                                    double atmosphere, double share_factor, double weight) {
   const double from = actuator.prediction.rest_length;
   if (!(from > 0) || actuator.prediction.lengths.empty())
     throw Refusal("actuator", "no prediction.rest_length", "one, as `identify static` writes it",
@@ -219,7 +219,7 @@ actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double r
     const double known = share > 0 ? 1 : 0;
     p.*inside = known * std::max(share * stretch * most, old.*inside);
     p.*between = known * std::max(p.*inside, old.*between);
-    p.*per_force = known * by_force * share * stretch;
+    p.*per_force = known * weight * share * stretch;
     // Errors outside the measured range are added as squares.
     for (double Intervals::*outside : {beyond, above}) {
       const double more = std::pow(old.*outside, 2) - std::pow(old.*inside, 2);

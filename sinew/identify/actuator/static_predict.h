@@ -58,20 +58,21 @@ struct ReadingFactor {
   double share = 1;  // factor of t, if that is known
 };
 
-// Returns both factors above. Throws Refusal if the muscle does not pull at that length and
-// pressure, or pulls twice or half as much as the reading: then the reading belongs to something
-// else.
+// Returns both factors above; `weight` as in with_rest_length(). Throws Refusal if the muscle does
+// not pull at that length and pressure, or pulls twice or half as much as the reading: then the
+// reading belongs to something else.
 ReadingFactor reading_factor(const actuator::Actuator& actuator, const ForceReading& reading,
-                             double atmosphere);
+                             double atmosphere, double weight = by_force);
 
 // Returns the actuator with its force multiplied by a factor at every length and pressure.
 actuator::Actuator scale_force(actuator::Actuator actuator, double factor);
 
 // Returns an identified actuator scaled to another rest length, with its uncertainty: the relative
 // error on muscles that were left out of the fit, larger beyond the tested ratio of lengths,
-// multiplied with `share` from a reading. Throws Refusal if the actuator has neither its own rest
-// length nor a measured length.
+// multiplied with `share` from a reading. `weight` is that of the force in this error: 0 for older
+// files, which have no key per_force_68 and whose interval is the same at every force. Throws
+// Refusal if the actuator has neither its own rest length nor a measured length.
 actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double rest_length,
-                                    double atmosphere, double share = 1);
+                                    double atmosphere, double share = 1, double weight = by_force);
 
 }  // namespace sinew::identify

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "sinew/actuator/prediction.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/identify/actuator/test_muscle.h"
 #include "sinew/identify/contest/refusal.h"
@@ -77,6 +78,20 @@ TEST(Predict, IntervalsGrowBeyondTheRatioThatWasTried) {
   };
   EXPECT_NEAR(share(0.25 * std::exp(0.4)), 0.05, 1e-9);
   EXPECT_NEAR(share(0.25 * std::exp(-1.0)), 0.10, 1e-9);
+}
+
+// In older files the share is that of the largest force at any force.
+TEST(Predict, AnOlderFileHasOneIntervalAtAllForces) {
+  const actuator::Actuator a = measured_muscle();
+  const actuator::Actuator older = with_rest_length(a, 0.3, units::atmosphere, 1, 0),
+                           newer = with_rest_length(a, 0.3, units::atmosphere);
+  const double largest = force(older, older.prediction.lengths.back(), 6e5);
+  for (const double at : {0.0, 0.5 * largest, largest}) {
+    EXPECT_NEAR(actuator::widest_inside_68(older.prediction, at), 0.02 * largest, 1e-9);
+    EXPECT_NEAR(actuator::widest_inside_95(older.prediction, at), 0.05 * largest, 1e-9);
+  }
+  EXPECT_NEAR(actuator::widest_inside_95(newer.prediction, largest), 0.05 * std::sqrt(5) * largest,
+              1e-9);
 }
 
 // Strengths differ by 2 %, and the error of the law's form is 1 % there: the law is corrected by

@@ -37,7 +37,15 @@ ForceReading reading_of(const std::string& text, double atmosphere) {
           config::quantity_setting("reading", force, "N", atmosphere, new_force)};
 }
 
-std::string file_of(const ScaleFound& found, const ScaleSettings& s) {
+// Returns the weight of the force in the error at other rest lengths: older files have no share of
+// the force, and none in their intervals.
+double weight_of_force(const config::Origins& origins, const std::string& name) {
+  const config::Origin* share =
+      config::find_origin(origins, "actuator." + name + ".prediction.per_force_68");
+  return share && share->is_default ? 0 : by_force;
+}
+
+std::string file_of(const ScaleFound& found, const ScaleSettings& s, double weight) {
   const std::string path = "actuator." + found.actuator.name + ".";
   Provenance provenance({}, s.file + ", with another rest length");
   const std::string source = fmt::format("sinew identify scale {} {}", s.file, s.rest_length);
@@ -54,7 +62,10 @@ std::string file_of(const ScaleFound& found, const ScaleSettings& s) {
        {"effectiveness.polynomial", "bladder.stiffness", "bladder.quadratic", "bladder.cubic",
         "bladder.saturating_tension", "toe.tension", "series.compliance"})
     if (found.corrected_by != 1) provenance.given(path + key, by_reading);
-  return actuator_file(without_idle_digits(found.actuator), provenance);
+  actuator::Actuator a = without_idle_digits(found.actuator);
+  // The file of an older one is an older one too: the keys are left out.
+  if (weight == 0) a.prediction.per_force_68 = a.prediction.per_force_95 = std::nan("");
+  return actuator_file(std::move(a), provenance);
 }
 
 void put_scaled(const ScaleFound& found, const TextOptions&, std::string& out) {
@@ -102,24 +113,25 @@ ScaleFound find(const SourceList&, const ScaleSettings& s) {
       config::named(file.experiment.actuators, s.actuator, "actuator", "actuator");
   const double rest_length = SettingValues(s, atmosphere).of(s.rest_length);
   ScaleFound out;
-  out.actuator = with_rest_length(old, rest_length, atmosphere);
+  const double weight = weight_of_force(file.experiment.origins, old.name);
+  out.actuator = with_rest_length(old, rest_length, atmosphere, 1, weight);
   out.from = old.prediction.rest_length;
   if (!s.reading.empty()) {
     const ReadingFactor factor =
-        reading_factor(out.actuator, reading_of(s.reading, atmosphere), atmosphere);
+        reading_factor(out.actuator, reading_of(s.reading, atmosphere), atmosphere, weight);
     out.corrected_by = factor.law;
     if (std::abs(factor.law - 1) > most_likely)
       out.remarks.warnings.push_back(fmt::format(
           "the law is multiplied by {:.3f} for this reading, and muscles of one make differ by 2 % "
           "or so: check its length, pressure and force",
           factor.law));
-    out.actuator =
-        scale_force(with_rest_length(old, rest_length, atmosphere, factor.share), factor.law);
+    out.actuator = scale_force(with_rest_length(old, rest_length, atmosphere, factor.share, weight),
+                               factor.law);
   }
   if (!s.name.empty()) out.actuator.name = s.name;
   const actuator::Prediction& p = out.actuator.prediction;
   out.largest = actuator::tension(out.actuator, p.lengths.back(), 0, p.highest, atmosphere);
-  out.files = {file_with(file_of(out, s))};
+  out.files = {file_with(file_of(out, s, weight))};
   out.json = json_of(out);
   if (!(p.inside_95 > 0))
     out.remarks.warnings.emplace_back(
