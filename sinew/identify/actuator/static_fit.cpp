@@ -65,9 +65,10 @@ void widen(const Slopes& slopes, std::span<const Parameter> parameters, std::siz
   for (std::size_t r = 0; r < count; ++r)
     for (std::size_t i = 0; i < n; ++i) variance[i] += moved(r, i) * moved(r, i);
   const int distinct = settings.empty() ? 0 : *std::ranges::max_element(settings) + 1;
-  double readings = 0;
-  for (std::size_t r = 0; r < points; ++r) readings += r < weights.size() ? weights[r] : 1;
-  solution.freedom -= static_cast<int>(std::lround(readings)) - distinct;
+  double readings = 0;  // as solution.freedom counts them, priors included
+  for (std::size_t r = 0; r < count; ++r) readings += r < weights.size() ? weights[r] : 1;
+  const auto priors = static_cast<int>(count - points);
+  solution.freedom -= static_cast<int>(std::lround(readings)) - distinct - priors;
   const double t = t_quantile(std::max(1, solution.freedom));
   for (std::size_t i = 0; i < n; ++i) {
     Estimate& e = solution.estimates[i];
@@ -215,13 +216,29 @@ class Problem {
   std::vector<std::optional<Prior>> priors_;
 };
 
-// Writes the readings behind the points into the options, if they are averages.
-void put_readings(std::span<const StaticPoint> points, SolverOptions& options) {
+// Returns the mean variance of the force among the readings of an average.
+double variance_within(std::span<const StaticPoint> points) {
+  double sum = 0, readings = 0;
+  for (const StaticPoint& p : points) {
+    sum += p.weight * p.variance;
+    readings += p.weight;
+  }
+  return readings > 0 ? sum / readings : 0;
+}
+
+// Writes the readings behind the points into the options, if they are averages. The residuals that
+// follow, up to `count`, are priors in scatters of the averages: weights put them on the scale of
+// the readings.
+void put_readings(std::span<const StaticPoint> points, std::size_t count, double scatter,
+                  SolverOptions& options) {
   if (std::ranges::all_of(points, [](const StaticPoint& p) { return p.weight == 1; })) return;
   for (const StaticPoint& p : points) {
     options.weights.push_back(p.weight);
     options.variances.push_back(p.variance);
   }
+  const double of_readings = scatter * scatter + variance_within(points);
+  options.weights.resize(count, of_readings / (scatter * scatter));
+  options.variances.resize(count, of_readings);
 }
 
 // Returns the scatter of the residuals of taut points.
@@ -331,7 +348,7 @@ StaticFit fit_static(const std::vector<FreeParameter>& free_parameters,
   } else {
     SolverOptions options{.tolerance = std::max(tolerance, 1e-9),
                           .slopes = problem.slopes(first_scatter * scales.full_scale)};
-    put_readings(points, options);
+    put_readings(points, problem.count(), first_scatter * scales.full_scale, options);
     const Solution first = least_squares_from(
         problem.residuals(first_scatter * scales.full_scale), problem.count(), search.parameters,
         starts_of(search.parameters, free_parameters), options);
@@ -343,7 +360,7 @@ StaticFit fit_static(const std::vector<FreeParameter>& free_parameters,
                     .correlated = true,
                     .tolerance = tolerance,
                     .slopes = problem.slopes(out.scatter)};
-  put_readings(points, search.options);
+  put_readings(points, search.count, out.scatter, search.options);
   out.solution = start ? least_squares(search.residuals, search.count, search.parameters,
                                        search.constraints, search.options)
                        : least_squares_within(search);
@@ -383,7 +400,7 @@ Refit refit_of(const StaticFit& fit, std::span<const StaticPoint> points,
                  .options = {.outlier = outlier * fit.scatter},
                  .constraints = fit.constraints,
                  .data = points.size()};
-  put_readings(points, out.options);
+  put_readings(points, out.count, fit.scatter, out.options);
   out.residuals = [held, residuals = held->problem.residuals(fit.scatter)](
                       std::span<const double> p, std::span<double> r) { return residuals(p, r); };
   out.options.slopes = [held, slopes = held->problem.slopes(fit.scatter)](

@@ -73,6 +73,28 @@ TEST(Static, WithoutNoiseTheLawComesBack) {
   EXPECT_LT(score(residuals_of(fit.setting, scales_for(points), points), 540).max_percent, 0.1);
 }
 
+// The toe does not show where a muscle pulls strongly: its error stays that of the prior for single
+// readings, and for averages of which each has 25 readings with this noise.
+TEST(Static, APriorKeepsItsDeviationForReadingsAndForAverages) {
+  for (const double readings : {1.0, 25.0}) {
+    std::mt19937_64 random(8);
+    std::normal_distribution<double> noise(0, 5);
+    std::vector<StaticPoint> points;
+    for (StaticPoint p : measured(truth(), 1, {}, {0, 0.01, 0.02, 0.035, 0.05})) {
+      if (p.pressure < 2.9 * bar) continue;
+      p.force += noise(random) / std::sqrt(readings);
+      p.weight = readings;
+      p.variance = 25 * (1 - 1 / readings);
+      points.push_back(p);
+    }
+    const StaticScales scales = scales_for(points);
+    const StaticFit fit = fit_static(free_parameters_named("saturating-toe"), points, scales);
+    const Estimate& e = fit.solution["toe_tension"];
+    const double deviation = prior_of(FreeParameter::toe, scales)->deviation_at(e.value);
+    EXPECT_NEAR(e.standard_error, deviation, 0.2 * deviation) << readings;
+  }
+}
+
 // A constant setting that a logger reads 30 times is one reading: the intervals are those of the
 // settings, within a fifth.
 TEST(Static, AHeldSettingIsOneReading) {
