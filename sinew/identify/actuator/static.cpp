@@ -21,6 +21,7 @@
 #include "sinew/identify/actuator/static_law_fitter.h"
 #include "sinew/identify/actuator/static_model.h"
 #include "sinew/identify/actuator/static_shown.h"
+#include "sinew/identify/actuator/static_spread.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
 
@@ -454,18 +455,21 @@ void set_file(const StaticFit& fit, const StaticScales& scales, const Points& po
     for (RestLengthError& label : setting.rest_lengths)
       if (label.labelled == muscle.rest_length) label.error = error;
     const actuator::Actuator a = scaled(setting, scales, muscle.rest_length);
-    std::vector<double> off;
-    for (const StaticPoint& p : points)
-      if (p.rest_length == muscle.rest_length)
-        off.push_back(std::max(0.0, law_force(a, p.length, p, scales.atmosphere)) - p.force);
+    std::vector<double> off, variances;
+    for (const StaticPoint& p : points) {
+      if (p.rest_length != muscle.rest_length) continue;
+      off.push_back(std::max(0.0, law_force(a, p.length, p, scales.atmosphere)) - p.force);
+      variances.push_back(p.variance);
+    }
     const double rms = score(off, 1).rmse;
     if (!(rms < muscle.rms)) continue;
     muscle.rms = rms;
     muscle.actuator = a;
     muscle.file_length = muscle.rest_length + error;
     if (whole == 0) continue;
-    muscle.half_68 = half_width_of(off, 0.68);
-    muscle.half_95 = half_width_of(off, 0.95);
+    const std::vector<double> errors = errors_of_readings(off, variances);
+    muscle.half_68 = half_width_of(errors, 0.68);
+    muscle.half_95 = half_width_of(errors, 0.95);
   }
 }
 

@@ -324,7 +324,7 @@ std::vector<double> residuals_of(const StaticSetting& setting, const StaticScale
 StaticFit fit_static(const std::vector<FreeParameter>& free_parameters,
                      std::span<const StaticPoint> points, const StaticScales& scales,
                      const StaticFit* start, double tolerance) {
-  StaticFit out{.free_parameters = free_parameters};
+  StaticFit out{.free_parameters = free_parameters, .variance = variance_within(points)};
   Problem problem(out.free_parameters, points, scales);
   const std::size_t parameters = problem.parameters().size();
   const std::vector<int> settings = setting_groups({points.begin(), points.end()});
@@ -439,7 +439,8 @@ StaticFit fit_by_ratio(std::span<const StaticPoint> points, const StaticScales& 
   }
 
   StaticFit out{.free_parameters = {FreeParameter::eff_constant, FreeParameter::eff_linear,
-                                    FreeParameter::eff_quadratic}};
+                                    FreeParameter::eff_quadratic},
+                .variance = variance_within(points)};
   std::vector<Parameter> parameters;
   for (const FreeParameter free_parameter : out.free_parameters)
     parameters.push_back(parameter_of(free_parameter, of_braid));

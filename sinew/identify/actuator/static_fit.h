@@ -27,6 +27,7 @@ struct StaticFit {
   std::vector<Parameter> parameters;   // as they were searched, with widened bounds
   Constraints constraints;             // those frozen at their bounds
   double scatter = 0;                  // sigma [N]
+  double variance = 0;                 // mean variance within averages [N2]
   std::size_t outliers = 0;            // points beyond 4 sigma
   std::vector<FreeParameter> unknown;  // not determined by the data, at their prior
 };

@@ -223,7 +223,8 @@ LeftOut StaticLawFitter::leave_out(const Points& points, double muscle) const {
   for (std::size_t i = 0; i < s.held_out.size(); ++i) {
     const double off = left.errors.residuals[i], force = s.held_out[i].force + off;
     if (std::isfinite(left.errors.widths[i]))
-      shares.push_back(off / std::hypot(left.largest, by_force * force));
+      shares.push_back(std::hypot(off, std::sqrt(s.held_out[i].variance)) /
+                       std::hypot(left.largest, by_force * force));
   }
   left.square = mean_square(shares);
   return left;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sinew/identify/actuator/static_labels.h"
 #include "sinew/identify/actuator/static_slopes.h"
@@ -17,7 +18,39 @@ constexpr double slack_share = 0.005;  // share of the largest force; less count
 constexpr double prior_error = 0.08;   // kappa_d0: share of the largest force per rest length
 constexpr int prior_freedom = 1;       // nu_0
 
+// Returns the values that divide a normal distribution into equally probable parts, each at the
+// middle of its part.
+std::vector<double> normal_nodes() {
+  constexpr int parts = 100;
+  std::vector<double> out;
+  for (int k = 0; k < parts; ++k) {
+    const double share = (k + 0.5) / parts;
+    double low = -10, high = 10;
+    for (int step = 0; step < 60; ++step) {
+      const double middle = 0.5 * (low + high);
+      (0.5 * std::erfc(-middle / std::numbers::sqrt2) < share ? low : high) = middle;
+    }
+    out.push_back(low);
+  }
+  return out;
+}
+
 }  // namespace
+
+std::vector<double> errors_of_readings(std::span<const double> errors,
+                                       std::span<const double> variances) {
+  static const std::vector<double> nodes = normal_nodes();
+  std::vector<double> out;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const double deviation = i < variances.size() ? std::sqrt(variances[i]) : 0;
+    if (!(deviation > 0)) {
+      out.push_back(errors[i]);
+      continue;
+    }
+    for (const double node : nodes) out.push_back(errors[i] + deviation * node);
+  }
+  return out;
+}
 
 void add_between(std::span<const LengthError> missed, double largest_force, StaticSpread& spread) {
   double shown = 0;
@@ -32,6 +65,7 @@ void add_between(std::span<const LengthError> missed, double largest_force, Stat
 void HeldOutErrors::add(const HeldOutErrors& other) {
   residuals.insert(residuals.end(), other.residuals.begin(), other.residuals.end());
   widths.insert(widths.end(), other.widths.begin(), other.widths.end());
+  variances.insert(variances.end(), other.variances.begin(), other.variances.end());
 }
 
 std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
@@ -59,7 +93,7 @@ std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
       for (std::size_t k = 0; k < gradient.size(); ++k)
         if (const double c = covariance[i * gradient.size() + k]; std::isfinite(c))
           sum += c * gradient[i] * gradient[k];
-    double square = fit.scatter * fit.scatter + std::max(sum, 0.0);
+    double square = fit.scatter * fit.scatter + fit.variance + std::max(sum, 0.0);
     // A muscle that was not fitted has an additional error of its rest length.
     if (!is_known)
       square +=
@@ -72,6 +106,7 @@ std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
 HeldOutErrors held_out_errors(const StaticFit& fit, const StaticScales& scales,
                               std::span<const StaticPoint> points) {
   HeldOutErrors out{residuals_of(fit.setting, scales, points), widths(fit, scales, points)};
+  for (const StaticPoint& p : points) out.variances.push_back(p.variance);
   const double slack = slack_share * scales.full_scale;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i].force < slack && points[i].force + out.residuals[i] < slack)
@@ -80,14 +115,16 @@ HeldOutErrors held_out_errors(const StaticFit& fit, const StaticScales& scales,
 }
 
 Quantiles quantiles(const HeldOutErrors& errors) {
-  std::vector<double> z;
+  std::vector<double> relative, variances;
   double square = 0;
   for (std::size_t i = 0; i < errors.residuals.size(); ++i) {
-    if (!std::isfinite(errors.widths[i])) continue;
-    z.push_back(std::abs(errors.residuals[i]) / errors.widths[i]);
-    square += z.back() * z.back();
+    const double width = errors.widths[i];
+    if (!std::isfinite(width)) continue;
+    relative.push_back(errors.residuals[i] / width);
+    variances.push_back(i < errors.variances.size() ? errors.variances[i] / (width * width) : 0);
+    square += relative.back() * relative.back() + variances.back();
   }
-  Quantiles out{.points = z.size()};
+  Quantiles out{.points = relative.size()};
   if (out.points == 0) return out;
   square /= static_cast<double>(out.points);
   if (out.points < few) {
@@ -95,6 +132,7 @@ Quantiles quantiles(const HeldOutErrors& errors) {
     out.q68 = std::sqrt(square);
     return out;
   }
+  const std::vector<double> z = errors_of_readings(relative, variances);
   out.q68 = half_width_of(z, 0.68);
   out.q95 = std::min(half_width_of(z, 0.95), widest * std::sqrt(square));
   return out;

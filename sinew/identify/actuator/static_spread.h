@@ -1,7 +1,8 @@
 // identify/actuator/static_spread.h - distribution of measured forces about the predicted one.
 //
-//   sigma_F^2 = sigma^2 + g' Cov g + (g_L sigma_L)^2        half-width = q sigma_F
+//   sigma_F^2 = sigma^2 + v + g' Cov g + (g_L sigma_L)^2    half-width = q sigma_F
 //
+//   v      mean variance of the forces within averages; 0 for single readings [N2]
 //   sigma  scatter of the points that were fitted [N]       g  dF/d(parameter) at the point
 //   g_L    dF/d(rest length) of a muscle that was not fitted, sigma_L the deviation of its label
 //          (static_labels.h); 0 for those that were
@@ -84,6 +85,11 @@ struct LengthError {
 // contain 68 and 95 % in multiples of the root mean square  [-].
 inline constexpr double by_force = 2, other_68 = 1, other_95 = 2.1;
 
+// Returns the errors of the readings behind averages with these errors: within an average they are
+// distributed normally with its variance. Errors of single readings are unchanged.
+std::vector<double> errors_of_readings(std::span<const double> errors,
+                                       std::span<const double> variances);
+
 // Writes the half-widths between lengths of a law with these errors at lengths that were left out.
 // `largest_force` is F_max [N].
 void add_between(std::span<const LengthError> missed, double largest_force, StaticSpread& spread);
@@ -91,6 +97,7 @@ void add_between(std::span<const LengthError> missed, double largest_force, Stat
 // Points that were left out of a fit: their errors and their predicted deviations.
 struct HeldOutErrors {
   std::vector<double> residuals, widths;  // predicted - measured; sigma_F [N]
+  std::vector<double> variances = {};     // within the averages [N2]; empty: single readings
 
   // Appends the points of `other`.
   void add(const HeldOutErrors& other);
@@ -106,8 +113,8 @@ HeldOutErrors held_out_errors(const StaticFit& fit, const StaticScales& scales,
 std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
                            std::span<const StaticPoint> points);
 
-// Returns the quantiles of |residual|/sigma_F, of points that have a width: that of 95 % at
-// most 2.5 times the root mean square. Fewer than 20 points: Student's factor times that.
+// Returns the quantiles of |error|/sigma_F of readings, at points that have a width: that of 95 %
+// at most 2.5 times the root mean square. Fewer than 20 points: Student's factor times that.
 Quantiles quantiles(const HeldOutErrors& errors);
 
 // Returns the larger value of each quantile.

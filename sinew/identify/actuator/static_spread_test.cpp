@@ -39,6 +39,36 @@ StaticResult fit_of(const std::vector<StaticPoint>& points, const std::string& m
   return identify_static(data, {.model = model});
 }
 
+// Averages of 20 readings with noise of 5 N: half-widths are those of measured forces.
+TEST(Spread, HalfWidthsOfAveragesContainReadings) {
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> noise(0, 5);
+  StaticData data;
+  for (const double contraction : {0.0, 0.01, 0.02, 0.035, 0.05, 0.08, 0.12, 0.16})
+    for (double p = 1e5; p <= 6.5e5; p += 0.5e5) {
+      StaticPoint point{.length = test_rest_length * (1 - contraction),
+                        .pressure = p,
+                        .rest_length = test_rest_length,
+                        .weight = 20};
+      point.force = predicted(test_muscle(), {.rest_length = test_rest_length}, point);
+      double sum = 0, squares = 0;
+      for (int k = 0; k < 20; ++k) {
+        const double off = noise(random);
+        sum += off / 20;
+        squares += off * off / 20;
+      }
+      point.force += sum;
+      point.variance = squares - sum * sum;
+      data.points.push_back(point);
+    }
+  const StaticResult result = identify_static(data, {.model = "saturating-elastic"});
+  const StaticForce f = predict(
+      result,
+      {.length = 0.95 * test_rest_length, .pressure = 4e5, .rest_length = test_rest_length});
+  EXPECT_NEAR(f.half_95, 10, 1);
+  EXPECT_NEAR(f.half_68, 5, 0.5);
+}
+
 TEST(Spread, QuantilesAreThoseOfTheNormalDistribution) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal(0, 3);
