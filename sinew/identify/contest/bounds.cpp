@@ -43,7 +43,8 @@ Solution least_squares_within(FitProblem& problem, Solution found) {
     for (std::size_t i = 0; i < problem.parameters.size(); ++i) {
       Parameter& p = problem.parameters[i];
       double* bound = guessed_bound(found.estimates[i], p);
-      if (!bound) continue;
+      const Constraint* known = problem.constraints.of(p.name);
+      if (!bound || (known && known->kind == Constraint::Kind::prior)) continue;
       is_changed = true;
       if (std::ranges::count(widened, bound) == 0) {
         *bound *= 2;

@@ -6,7 +6,7 @@
 // wider bound too, the parameter is frozen there and the others are fitted again: the data
 // determine that it is large and not how large, and the law competes with one parameter less. A
 // bound that limits the value towards zero stays: it is a matter of sign, of geometry, or the limit
-// at which the law becomes a simpler one.
+// at which the law becomes a simpler one. The bounds of a parameter with a user's prior stay too.
 #pragma once
 
 #include "sinew/identify/contest/profile.h"

@@ -143,6 +143,21 @@ TEST(Contest, WidensAGuessedBoundOnceAndThenFreezesTheParameter) {
   EXPECT_LT(report.chosen, 2u);
 }
 
+// A parameter with a prior keeps the prior: its bound stays.
+TEST(Contest, WidensNoBoundOfAParameterWithAPrior) {
+  const Line data = line(12);
+  Candidate known = polynomial(data.x, 1);
+  known.parameters[1] = {.name = "b", .unit = "1", .start = 0.4, .high = 0.5, .may_widen = true};
+  known.constraints = Constraints({.prior = {"b=0.4 ± 10"}});
+  Report report = report_of(data);
+  fit_candidates({known}, {.measured = data.y}, report);
+  const Estimate& slope = report.fits[0].parameters[1];
+  EXPECT_NEAR(slope.value, 0.5, 1e-9);
+  EXPECT_TRUE(slope.at_bound);
+  EXPECT_TRUE(slope.free);
+  EXPECT_TRUE(slope.known.starts_with("prior 0.4 +- 10")) << slope.known;
+}
+
 // Each bound is widened once by itself, in whatever order the parameters come to theirs.
 TEST(Contest, WidensEachBoundOnce) {
   const Line data = line(12);
