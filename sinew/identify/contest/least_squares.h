@@ -103,8 +103,8 @@ struct Solution {
   std::vector<double> covariance;  // row by row; 0 for fixed parameters
   std::vector<std::string>
       undetermined;               // combinations of parameters that the data do not determine
-  double rms = 0;                 // root mean square of the residuals
-  double standard_deviation = 0;  // s
+  double rms = 0;                 // root mean square of the residuals, each average counted once
+  double standard_deviation = 0;  // s, of single readings: with those within averages
   double inflation = 1;           // factor of the variance due to correlation
   int freedom = 0;                // n - k
   int steps = 0;
