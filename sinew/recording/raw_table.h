@@ -28,7 +28,7 @@ struct RawTable {
   std::vector<double> time;             // since the first row  [s]; empty: the file has no clock
   double first = 0;                     // the first row's own time, if the clock holds numbers  [s]
   std::string clock;                    // columns with the times: "Zeit", "Datum and Uhrzeit"
-  std::vector<Heading> clock_headings;  // of these columns
+  std::vector<Heading> clock_headings;  // headings of these columns
   std::string start;  // instant of the first row, "2026-11-24T10:15:30.125"; empty: unknown
   // Time of the first row since 1970 or, without dates, since a midnight [ns]; UTC if the table has
   // a zone.

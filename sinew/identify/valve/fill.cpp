@@ -199,8 +199,8 @@ Candidate fill_candidate(const FillModel& model, const Curve& c, const ValveOpti
   return out;
 }
 
-Report fill_contest(const Curve& c, const ValveOptions& options,
-                    std::span<const FillModel> models, bool is_scored_elsewhere) {
+Report fill_contest(const Curve& c, const ValveOptions& options, std::span<const FillModel> models,
+                    bool is_scored_elsewhere) {
   Report out{.full_scale = c.range()};
   std::vector<Candidate> candidates;
   for (const FillModel& model : models) candidates.push_back(fill_candidate(model, c, options));
