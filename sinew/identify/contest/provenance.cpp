@@ -15,7 +15,8 @@
 namespace sinew::identify {
 
 Provenance::Provenance(config::Origins start, std::string_view file)
-    : origins_(std::move(start)), elsewhere_(fmt::format("where none stands: as in {}", file)) {}
+    : origins_(std::move(start)),
+      elsewhere_(fmt::format("keys without a source of their own: as in {}", file)) {}
 
 // Adds an origin, replacing an existing one of the same path.
 config::Origin& Provenance::put(std::string_view path) {

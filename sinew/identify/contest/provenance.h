@@ -37,7 +37,7 @@ class Provenance {
   config::Origin& put(std::string_view path);
 
   config::Origins origins_;
-  std::string elsewhere_ = "where none stands: not identified, does nothing";
+  std::string elsewhere_ = "keys without a source of their own: not identified, without effect";
 };
 
 // Returns the number with at most this many significant digits; infinity and NaN unchanged.
