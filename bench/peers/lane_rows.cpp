@@ -56,6 +56,19 @@ Pair two_threads(Clock clock) {
           .label = "a sweep of walks on two threads, against one"};
 }
 
+// Compares the rows of a sweep with the same walks alone, of which nothing is recorded.
+Pair sweep_row() {
+  const auto runner = std::make_shared<tune::Runner>(
+      tune::Sweep{.experiment = experiment_file("walk-test-1.toml"),
+                  .axes = {tune::seeds(64)},
+                  .report = tune::parse_figures("trolley.distance_m")});
+  const auto each = walks(64);
+  (void)sweep(*runner, 1);  // the first runs find what a row needs
+  return {.ours = [=] { return static_cast<double>(sweep(*runner, 1).size()); },
+          .theirs = [=] { return in_lanes(each, run::widest_lanes(), false); },
+          .label = "a row of a sweep, against its run"};
+}
+
 // Runs a thousand walks on two threads in the processor's lanes.
 void thousand_walks(benchmark::State& state, bool recorded) {
   const auto half = walks(500);
@@ -71,6 +84,7 @@ const Registration rows([] {
     compare(fmt::format("cost/beside-{}", lanes), [=] { return beside(lanes, false); });
     compare(fmt::format("cost/beside-{}-recorded", lanes), [=] { return beside(lanes, true); });
   }
+  compare("cost/sweep-row", [] { return sweep_row(); });
   compare("threads/two", [] { return two_threads(Clock::wall); });
   compare("threads/work", [] { return two_threads(Clock::all_threads); });
 });

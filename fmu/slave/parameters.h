@@ -66,7 +66,7 @@ class Lister : public units::EachField {
   void add(const units::VisitedField& f, const std::string& element, std::string_view unit,
            double value) {
     if (!std::isfinite(value)) return;
-    found.push_back({.name = f.path + element,
+    found.push_back({.name = std::string(f.path) + element,
                      .unit = std::string(unit),
                      .min = f.field.min,
                      .max = f.field.max,
@@ -74,7 +74,7 @@ class Lister : public units::EachField {
                      .number = value});
   }
   void add_word(const units::VisitedField& f, std::string value) {
-    found.push_back({.name = f.path,
+    found.push_back({.name = std::string(f.path),
                      .kind = Parameter::Kind::word,
                      .doc = std::string(f.field.doc),
                      .word = std::move(value)});
@@ -111,15 +111,15 @@ class Filler : public units::EachField {
     if (f.type != units::FieldType::choice) return;
     for (f.choice = 0; f.choice < f.words.size(); ++f.choice)
       if (f.words[f.choice] == p->word) return;
-    refuse(f.path, "\"" + p->word + "\"", "a word of this version", "");
+    refuse(std::string(f.path), "\"" + p->word + "\"", "a word of this version", "");
   }
   void fill_numbers(const units::VisitedField& f) const {
     std::vector<double> read;
-    while (const Parameter* p = find(f.path + "[" + std::to_string(read.size()) + "]"))
+    while (const Parameter* p = find(std::string(f.path) + "[" + std::to_string(read.size()) + "]"))
       read.push_back(p->number);
     if (!read.empty()) *f.numbers = read;
   }
-  const Parameter* find(const std::string& name) const {
+  const Parameter* find(std::string_view name) const {
     for (const Parameter& p : from_)
       if (p.name == name) return &p;
     return nullptr;

@@ -31,6 +31,7 @@ void bind_compare(py::module_& m);
 void bind_run(py::module_& m);
 void bind_imported(py::module_& m);
 void bind_sweep(py::module_& m);
+void bind_ensemble(py::module_& m);
 void bind_laws(py::module_& m);
 void bind_muscle(py::module_& m);
 void bind_identify(py::module_& m);

@@ -16,6 +16,7 @@ PYBIND11_MODULE(_sinew, m) {
   sinew::python::bind_run(m);
   sinew::python::bind_imported(m);
   sinew::python::bind_sweep(m);
+  sinew::python::bind_ensemble(m);
   sinew::python::bind_laws(m);
   sinew::python::bind_muscle(m);
   sinew::python::bind_identify(m);

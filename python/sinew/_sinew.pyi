@@ -262,6 +262,33 @@ def sweep(
     points: int = 0,
     progress: Optional[Callable[[int, int], object]] = None,
 ) -> List[Dict[str, Any]]: ...
+class Ensemble:
+    def __init__(
+        self,
+        experiment: Union[Experiment, _Path],
+        parameters: Sequence[str],
+        figures: Sequence[str],
+        *,
+        sets: _Sets = None,
+        allow_unreachable: bool = False,
+    ) -> None: ...
+    @property
+    def parameters(self) -> List[str]: ...
+    @property
+    def figures(self) -> List[str]: ...
+    @property
+    def units(self) -> List[str]: ...
+    def run(
+        self,
+        values: numpy.typing.ArrayLike,
+        *,
+        threads: int = 0,
+        progress: Optional[Callable[[int, int], object]] = None,
+    ) -> Tuple[numpy.typing.NDArray[numpy.float64], List[str]]: ...
+    def __call__(
+        self, values: numpy.typing.ArrayLike, *, threads: int = 0
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
+
 def tune(
     path: _Path,
     results: _Path,

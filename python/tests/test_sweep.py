@@ -59,6 +59,43 @@ class Sweep(unittest.TestCase):
             sinew.sweep(WALK, {"seed": range(1, 5000)}, report="trolley.distance_m")
 
 
+class Ensemble(unittest.TestCase):
+    def test_rows_are_those_of_run(self) -> None:
+        ensemble = sinew.Ensemble(AIR, [GAIN, "seed"], [ERROR, "air_used_kg", "no.such_figure"])
+        self.assertEqual(ensemble.units, ["1/count", ""])
+        values = numpy.array([[4e-4, 1], [6e-4, 2], [6e-4, 3]])
+        for threads in (1, 3):
+            figures = ensemble(values, threads=threads)
+            self.assertEqual(figures.shape, (3, 3))
+            self.assertTrue(numpy.isnan(figures[:, 2]).all())
+            for row, (gain, seed) in zip(figures, values):
+                alone = sinew.run(AIR, {GAIN: float(gain), "seed": int(seed)}).summary
+                self.assertEqual(row[0], alone["joints"]["hip"]["tracking_rms_rad"])
+                self.assertEqual(row[1], alone["air_used_kg"])
+
+    def test_a_refused_run_is_nan_with_its_reason(self) -> None:
+        told: List[Tuple[int, int]] = []
+        ensemble = sinew.Ensemble(AIR, [GAIN], [ERROR])
+        figures, status = ensemble.run(
+            [[4e-4], [-1.0]], progress=lambda n, of: told.append((n, of))
+        )
+        self.assertEqual(status[0], "ok")
+        self.assertIn("expected at least 0", status[1])
+        self.assertTrue(numpy.isnan(figures[1, 0]))
+        self.assertEqual(told[-1], (2, 2))
+
+    def test_wrong_inputs_are_refused(self) -> None:
+        with self.assertRaisesRegex(sinew.InputError, "joint.hip.angle_gian"):
+            sinew.Ensemble(AIR, ["joint.hip.angle_gian"], [ERROR])
+        with self.assertRaisesRegex(sinew.InputError, "a number of the experiment"):
+            sinew.Ensemble(AIR, ["title"], [ERROR])
+        ensemble = sinew.Ensemble(AIR, [GAIN], [ERROR])
+        with self.assertRaisesRegex(ValueError, "one row for each run"):
+            ensemble([1e-4, 2e-4])
+        with self.assertRaisesRegex(TypeError, "expected real numbers"):
+            ensemble([["4 m"]])
+
+
 TUNING = """
 format     = "sinew.tuning/1"
 title      = "A hip that tracks"

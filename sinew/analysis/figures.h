@@ -2,10 +2,13 @@
 // has the channels for.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sinew/analysis/record/machine.h"
@@ -18,12 +21,31 @@ struct Figures {
   const Machine& machine;
   const Record& record;  // the log and the series that derive() computes from it
   Summary& summary;
+  const std::vector<std::string>* keys = nullptr;  // those that are wanted; nullptr: all
+  std::string prefix = "";                         // of the leg's keys, "legs.left."
   mutable std::map<std::string, double> delivered_duties = {};  // cache, by muscle and valve [-]
 
-  // Adds a statistic of a column, unless the column is empty because its topic is missing.
+  // Returns whether any key that begins so is wanted.
+  bool wants(std::string_view part) const {
+    return !keys || std::ranges::any_of(*keys, [&](std::string_view key) {
+      return key.starts_with(prefix) && key.substr(prefix.size()).starts_with(part);
+    });
+  }
+  // Adds a figure if it is wanted; value() computes it.
+  template <std::invocable Value>
+  void add(const std::string& key, const Value& value) {
+    if (wants(key)) summary.add(key, value());
+  }
+  // Adds a statistic of a topic, or of a computed column, unless the topic is missing.
   template <class Statistic>
-  void add(std::string key, Statistic statistic, const Column& column, const Column& seconds) {
-    if (!column.empty()) summary.add(std::move(key), statistic(column, seconds));
+  void add(const std::string& key, Statistic statistic, const std::string& topic,
+           const Column& seconds, std::string_view field = "value") {
+    if (wants(key)) add(key, statistic, record.column(topic, field), seconds);
+  }
+  template <class Statistic>
+  void add(const std::string& key, Statistic statistic, const Column& column,
+           const Column& seconds) {
+    if (wants(key) && !column.empty()) summary.add(key, statistic(column, seconds));
   }
 };
 
@@ -44,6 +66,9 @@ void add_rates(Figures&, double amount, const std::string& per_step, const std::
 double passiveness(const Figures&, const robot::Muscle&);
 double delivered_passiveness(const Figures&, const robot::Muscle&);
 
+// Adds the smallest passiveness of a joint's muscles, or of all muscles, in both ways.
+void add_smallest_passiveness(Figures&, const std::string& key, const std::string& joint = "");
+
 // Returns the air that entered the cylinder between two rows  [kg]; 0 without a cylinder.
 double cylinder_air(const Figures&, std::size_t first, std::size_t last);
 
@@ -52,7 +77,6 @@ void add_run(Figures&);
 void add_trolley(Figures&);
 void add_joints(Figures&);
 void add_muscles(Figures&);
-void add_passiveness(Figures&);
 void add_foot(Figures&);
 void add_ground_reaction(Figures&);
 void add_air(Figures&);
@@ -64,11 +88,18 @@ void add_sole(Figures&);  // the discs of a leg's foot
 void add_phases(Figures&);
 void add_supervision(Figures&);
 
+// Adds all of these for a whole run, those of its legs from the log and the derived series. The
+// topics that the legs' figures read are added to `read`.
+void add_figures(Figures&, const signals::Table& table, const signals::Table& derived,
+                 TopicNames* read = nullptr);
+
 // Returns the figures of a run of a test stand that its log has the channels for.
 Summary summarize_stand(const signals::Table& table, const Machine& machine);
 
 // Adds legs.<name>.* of each leg: joints, muscles, passiveness, foot, ground reaction, air and
-// phases as those of a machine with one leg, and the load of its foot.
-void add_legs(Figures& figures, const signals::Table& table, const signals::Table& derived);
+// phases as those of a machine with one leg, and the load of its foot. The topics that are read are
+// added to `read`.
+void add_legs(Figures& figures, const signals::Table& table, const signals::Table& derived,
+              TopicNames* read = nullptr);
 
 }  // namespace sinew::analysis

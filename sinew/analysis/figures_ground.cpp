@@ -143,6 +143,7 @@ Contact contact(const Record& record) {
 }
 
 void add_stick(Figures& f) {
+  if (!f.wants("foot.stick_") && !f.wants("foot.slip_per_step_m")) return;
   const Contact c = contact(f.record);
   if (c.sticks.empty()) return;
   const int propulsion = find_phase(f.machine, "propulsion");
@@ -171,6 +172,7 @@ std::size_t end_of_hold(const Record& record, const PhaseSpan& kick) {
 // position, which is the desired one at the end of the next hold, and to the first peak of x, which
 // may be later and beyond.
 void add_kick(Figures& f) {
+  if (!f.wants("foot.extension_")) return;
   const int kick = find_phase(f.machine, "kick");
   const std::optional<PhaseSpan> s = kick >= 0 ? f.record.last_of(kick) : std::nullopt;
   const Column x = f.record.column("/foot/position", "x");
@@ -217,6 +219,7 @@ Extent extent_of(const Figures& f) {
 
 void add_rates(Figures& f, double amount, const std::string& per_step,
                const std::string& per_metre) {
+  if (!f.wants(per_step) && !f.wants(per_metre)) return;
   const Extent extent = extent_of(f);
   if (extent.steps > 0) f.summary.add(per_step, amount / extent.steps);
   if (extent.distance > 0) f.summary.add(per_metre, amount / extent.distance);
@@ -227,45 +230,46 @@ void add_run(Figures& f) {
   f.summary.add("duration_s", r.lasting(0, r.rows() - 1));
   if (!r.has_sequence()) return;
   f.summary.add("sequence_duration_s", r.sequence_lasts());
-  f.summary.add("steps", extent_of(f).steps);
-  f.add("unreachable_share", mean, r.column("/plan/unreachable"), r.sequence());
+  f.add("steps", [&] { return extent_of(f).steps; });
+  f.add("unreachable_share", mean, "/plan/unreachable", r.sequence());
 }
 
 void add_trolley(Figures& f) {
+  if (!f.wants("trolley.")) return;
   const Travel real = travel(f);
   f.summary.add("trolley.distance_m", real.distance);
   f.summary.add("trolley.mean_speed_m_per_s", real.distance / real.time);
   f.summary.add("trolley.stop_reached_s", stop_reached(f));
-  f.add("trolley.peak_speed_m_per_s", largest, f.record.column("/true/trolley/velocity"),
-        f.record.sequence());
+  f.add("trolley.peak_speed_m_per_s", largest, "/true/trolley/velocity", f.record.sequence());
 
   if (!f.record.has_sequence() || !f.machine.robot.ground.present) return;
   const auto from_torques = [&](const std::string& topic) {
     const Column x = f.record.column(topic);
     return x.empty() ? no_figure : x[f.record.end_row()];
   };
-  const double distance = from_torques("/trolley/position");
-  f.summary.add("trolley.distance_from_torques_m", distance);
-  f.summary.add("trolley.mean_speed_from_torques_m_per_s", distance / f.record.sequence_lasts());
-  f.summary.add("trolley.distance_from_torques_by_plan_m",
-                from_torques("/trolley/by_plan/position"));
+  f.add("trolley.distance_from_torques_m", [&] { return from_torques("/trolley/position"); });
+  f.add("trolley.mean_speed_from_torques_m_per_s",
+        [&] { return from_torques("/trolley/position") / f.record.sequence_lasts(); });
+  f.add("trolley.distance_from_torques_by_plan_m",
+        [&] { return from_torques("/trolley/by_plan/position"); });
 }
 
 void add_foot(Figures& f) {
   if (!has_leg(f.machine)) return;
-  f.add("foot.tracking_rms_m", rms, foot_error(f.record), f.record.sequence());
-  f.summary.add("foot.step_repeat_rms_m", step_repeat(f, "/foot/position"));
-  f.summary.add("foot.step_repeat_true_rms_m", step_repeat(f, "/true/foot/position"));
+  if (f.wants("foot.tracking_rms_m"))
+    f.add("foot.tracking_rms_m", rms, foot_error(f.record), f.record.sequence());
+  f.add("foot.step_repeat_rms_m", [&] { return step_repeat(f, "/foot/position"); });
+  f.add("foot.step_repeat_true_rms_m", [&] { return step_repeat(f, "/true/foot/position"); });
   if (f.machine.robot.ground.present) add_stick(f);
   add_kick(f);
 }
 
 void add_ground_reaction(Figures& f) {
-  if (!f.machine.robot.ground.present) return;
+  const std::string key = "ground_reaction.";
+  if (!f.wants(key) || !f.machine.robot.ground.present) return;
   const Column& stance = f.record.stance();
   const Components estimate = force(f.record, "/foot/force");
   const Components real = force(f.record, "/true/foot/force");
-  const std::string key = "ground_reaction.";
   f.add(key + "mean_normal_stance_N", mean, estimate.y, stance);
   f.add(key + "peak_normal_N", largest, estimate.y, stance);
   f.add(key + "peak_friction_N", largest, estimate.x, stance);

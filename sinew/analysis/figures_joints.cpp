@@ -30,19 +30,23 @@ std::size_t relaxed_row(const Figures& f) {
 
 void add_angles(Figures& f, const std::string& joint, const std::string& key) {
   const Column& sequence = f.record.sequence();
-  const Column angle = f.record.column("/joint/" + joint + "/angle");
-  const Column real = f.record.column("/true/joint/" + joint + "/angle");
+  const std::string angle = "/joint/" + joint + "/angle", real = "/true" + angle;
   f.add(key + "min_angle_rad", smallest, angle, sequence);
   f.add(key + "max_angle_rad", largest, angle, sequence);
-  if (!angle.empty())
-    f.summary.add(key + "excursion_rad", largest(angle, sequence) - smallest(angle, sequence));
+  f.add(
+      key + "excursion_rad",
+      [](const Column& values, const Column& seconds) {
+        return largest(values, seconds) - smallest(values, seconds);
+      },
+      angle, sequence);
   f.add(key + "min_angle_true_rad", smallest, real, sequence);
   f.add(key + "max_angle_true_rad", largest, real, sequence);
 
   const std::size_t row = relaxed_row(f);
   if (row >= f.record.rows()) return;
-  if (!angle.empty()) f.summary.add(key + "relaxed_angle_rad", angle[row]);
-  if (!real.empty()) f.summary.add(key + "relaxed_angle_true_rad", real[row]);
+  const auto at_row = [&](const Column& values, const Column&) { return values[row]; };
+  f.add(key + "relaxed_angle_rad", at_row, angle, sequence);
+  f.add(key + "relaxed_angle_true_rad", at_row, real, sequence);
 }
 
 // Returns the swings of all steps but the first, which depends on how the machine was placed.
@@ -60,6 +64,7 @@ Column later_swings(const Figures& f) {
 // Adds the change of the estimated velocity from row to row: a velocity gain turns it into valve
 // pulses, 6.5.
 void add_velocity_jumps(Figures& f, const std::string& joint, const std::string& key) {
+  if (!f.wants(key + "velocity_jump_")) return;
   const Column velocity = f.record.column("/joint/" + joint + "/velocity_estimate");
   if (velocity.empty()) return;
   Column jump = f.record.new_column();
@@ -73,27 +78,33 @@ void add_velocity_jumps(Figures& f, const std::string& joint, const std::string&
 void add_control(Figures& f, const std::string& joint, const std::string& key) {
   const Column& sequence = f.record.sequence();
   const std::string at = "/joint/" + joint;
-  f.add(key + "tracking_rms_rad", rms, f.record.column(at + "/error"), sequence);
-  const Column oscillation = f.record.column(at + "/oscillation");
+  f.add(key + "tracking_rms_rad", rms, at + "/error", sequence);
+  const std::string oscillation = at + "/oscillation";
   f.add(key + "swing_oscillation_rms_rad", rms, oscillation, f.record.swing());
-  f.add(key + "swing_oscillation_later_steps_rms_rad", rms, oscillation, later_swings(f));
+  if (const std::string later = key + "swing_oscillation_later_steps_rms_rad"; f.wants(later))
+    f.add(later, rms, oscillation, later_swings(f));
 
-  const Column believed = f.record.column(at + "/stiffness");
-  const Column real = f.record.column("/true" + at + "/stiffness");
+  const std::string believed = at + "/stiffness", real = "/true" + believed;
   f.add(key + "stiffness_mean_Nm_per_rad", mean, believed, sequence);
   f.add(key + "stiffness_std_Nm_per_rad", deviation, believed, sequence);
   f.add(key + "stiffness_mean_true_Nm_per_rad", mean, real, sequence);
   f.add(key + "stiffness_std_true_Nm_per_rad", deviation, real, sequence);
-  f.add(key + "peak_torque_Nm", largest_magnitude, f.record.column(at + "/torque"), sequence);
-  f.add(key + "peak_torque_true_Nm", largest_magnitude, f.record.column("/true" + at + "/torque"),
-        sequence);
+  f.add(key + "peak_torque_Nm", largest_magnitude, at + "/torque", sequence);
+  f.add(key + "peak_torque_true_Nm", largest_magnitude, "/true" + at + "/torque", sequence);
+}
+
+// Adds the value of a topic at a row.
+void add_end_of(Figures& f, const std::string& key, const std::string& topic,
+                std::string_view field, std::size_t row) {
+  f.add(
+      key, [&](const Column& values, const Column&) { return values[row]; }, topic,
+      f.record.sequence(), field);
 }
 
 // Adds angles and pressures at the end of a phase.
 void add_end(Figures& f, const std::string& key, std::size_t row) {
   const auto last = [&](const std::string& name, const std::string& topic) {
-    const Column column = f.record.column(topic);
-    if (!column.empty()) f.summary.add(key + name, column[row]);
+    add_end_of(f, key + name, topic, "value", row);
   };
   for (const robot::Joint& j : f.machine.robot.joints) {
     last("joints." + j.name + ".end_angle_rad", "/joint/" + j.name + "/angle");
@@ -140,9 +151,10 @@ Turns turns_of(const Record& record, int phase, const Column& error) {
 }
 
 void add_turns(Figures& f, const std::string& phase_key, int phase, const std::string& joint) {
+  const std::string key = phase_key + "joints." + joint + ".";
+  if (!f.wants(key)) return;
   const Column error = f.record.column("/joint/" + joint + "/error");
   if (error.empty()) return;
-  const std::string key = phase_key + "joints." + joint + ".";
   const Turns turns = turns_of(f.record, phase, error);
   f.summary.add(key + "turning_points", turns.sum);
   if (turns.times > 1) {
@@ -154,30 +166,16 @@ void add_turns(Figures& f, const std::string& phase_key, int phase, const std::s
   f.summary.add(key + "largest_oscillation_amplitude_rad", turns.largest);
 }
 
-// Adds the value of a topic at a row.
-void add_end_of(Figures& f, const std::string& key, std::string_view topic, std::string_view field,
-                std::size_t row) {
-  const Column column = f.record.column(topic, field);
-  if (!column.empty()) f.summary.add(key, column[row]);
-}
-
 }  // namespace
 
 void add_joints(Figures& f) {
   for (const robot::Joint& joint : f.machine.robot.joints) {
     const std::string key = "joints." + joint.name + ".";
+    if (!f.wants(key)) continue;
     add_angles(f, joint.name, key);
     add_control(f, joint.name, key);
     add_velocity_jumps(f, joint.name, key);
-    // The passiveness of a joint is the smallest one of its muscles.
-    double commanded = no_figure, delivered = no_figure;
-    for (const robot::Muscle& m : f.machine.robot.muscles) {
-      if (m.joint != joint.name && m.second.joint != joint.name) continue;
-      commanded = std::fmin(commanded, passiveness(f, m));
-      delivered = std::fmin(delivered, delivered_passiveness(f, m));
-    }
-    f.summary.add(key + "passiveness", commanded);
-    f.summary.add(key + "passiveness_delivered", delivered);
+    add_smallest_passiveness(f, key, joint.name);
   }
 }
 
@@ -186,6 +184,7 @@ void add_phases(Figures& f) {
     const std::optional<PhaseSpan> span = f.record.last_of(static_cast<int>(i));
     if (!span) continue;
     const std::string key = "phases." + f.machine.phases[i] + ".";
+    if (!f.wants(key)) continue;
     f.summary.add(key + "mean_duration_s", mean_duration(f.record, static_cast<int>(i)));
     add_end(f, key, span->last - 1);
     for (const robot::Joint& j : f.machine.robot.joints)
@@ -200,8 +199,9 @@ namespace {
 
 // Adds the share of the sequence in which the ground carries the foot, and the load.
 void add_load(Figures& f) {
+  if (!f.wants("foot.") || !f.machine.robot.ground.present) return;
   const Column load = f.record.column("/true/foot/force", "y");
-  if (load.empty() || !f.machine.robot.ground.present) return;
+  if (load.empty()) return;
   Column loaded = f.record.new_column();
   for (const double newton : load) loaded.push_back(newton > 0 ? 1.0 : 0.0);
   f.add("foot.loaded_share_true", mean, loaded, f.record.sequence());
@@ -210,22 +210,24 @@ void add_load(Figures& f) {
 
 }  // namespace
 
-void add_legs(Figures& figures, const signals::Table& table, const signals::Table& derived) {
+void add_legs(Figures& figures, const signals::Table& table, const signals::Table& derived,
+              TopicNames* read) {
   for (const MachineLeg& leg : legs_of(figures.machine)) {
-    const Record record(table, leg.machine, &derived, leg.name);
+    const std::string prefix = "legs." + leg.name + ".";
+    if (!figures.wants(prefix)) continue;
+    const Record record(table, leg.machine, &derived, leg.name, read);
     Summary own;
-    Figures f{leg.machine, record, own};
+    Figures f{leg.machine, record, own, figures.keys, prefix};
     add_joints(f);
     add_muscles(f);
-    add_passiveness(f);
+    add_smallest_passiveness(f, "");
     add_foot(f);
     add_load(f);
     add_sole(f);
     add_ground_reaction(f);
     add_air(f);
     add_phases(f);
-    for (const Entry& e : own.entries())
-      figures.summary.add("legs." + leg.name + "." + e.key, e.value);
+    for (const Entry& e : own.entries()) figures.summary.add(prefix + e.key, e.value);
   }
 }
 

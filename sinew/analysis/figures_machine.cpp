@@ -27,7 +27,7 @@ double lifted_share(const Column& load, const Column& seconds) {
 
 void add_rollers(Figures& f) {
   for (const std::string roller : {"front", "rear"}) {
-    const Column load = f.record.column("/true/roller/" + roller + "/load");
+    const std::string load = "/true/roller/" + roller + "/load";
     f.add("rollers." + roller + ".min_load_N", smallest, load, f.record.sequence());
     f.add("rollers." + roller + ".max_load_N", largest, load, f.record.sequence());
     f.add("rollers." + roller + ".lifted_share", lifted_share, load, f.record.sequence());
@@ -35,6 +35,7 @@ void add_rollers(Figures& f) {
 }
 
 void add_cylinder(Figures& f) {
+  if (!f.wants("cylinder.")) return;
   const Column travel = f.record.column("/true/cylinder/position");
   if (travel.empty()) return;
   f.add("cylinder.min_position_true_m", smallest, travel, f.record.sequence());
@@ -52,7 +53,7 @@ void add_cylinder(Figures& f) {
 // Adds mean and deviation of the sensors' counts, as the program of the thesis prints them, B.1.
 void add_sensors(Figures& f) {
   for (const robot::Sensor& sensor : f.machine.robot.sensors) {
-    const Column counts = f.record.column("/sensor/" + sensor.name + "/count");
+    const std::string counts = "/sensor/" + sensor.name + "/count";
     const std::string key = "sensors." + sensor.name + ".";
     f.add(key + "mean_count", mean, counts, f.record.sequence());
     f.add(key + "std_count", deviation, counts, f.record.sequence());
@@ -63,6 +64,7 @@ void add_sensors(Figures& f) {
 // 1 %. If it holds it to the end of the sequence these are lower bounds, and their keys contain
 // `at_least`.
 void add_endurance(Figures& f) {
+  if (!f.wants("supply.full_")) return;
   const Column line = f.record.column("/true/supply/pressure");
   if (line.empty() || !f.record.has_sequence()) return;
   std::size_t row = f.record.first_row();
@@ -101,6 +103,7 @@ double cylinder_air(const Figures& f, std::size_t first, std::size_t last) {
 // logged.
 void add_supervision(Figures& f) {
   const auto counted = [&](const std::string& key, const std::string& topic) {
+    if (!f.wants(key)) return;
     const Column column = f.record.column(topic);
     if (!column.empty() && column.back() > 0) f.summary.add(key, column.back());
   };
@@ -111,6 +114,7 @@ void add_supervision(Figures& f) {
   }
   counted("low_level.rejected_commands", "/low_level/rejected_commands");
   counted("low_level.gaps", "/low_level/gaps");
+  if (!f.wants("low_level.tripped_time_s")) return;
   const Column tripped = f.record.column("/low_level/tripped");
   const auto first = std::ranges::find(tripped, 1.0) - tripped.begin();
   if (first < std::ssize(tripped))
@@ -124,7 +128,7 @@ void add_air_balance(Figures& f) {
     const Column c = f.record.column(topic);
     return c.empty() ? 0.0 : c.back() - c.front();
   };
-  if (f.record.column("/true/air/mass").empty()) return;
+  if (!f.wants("air_balance.") || f.record.column("/true/air/mass").empty()) return;
   // A tank is a part of the machine: its muscles then fill from within, and only the air past the
   // tank enters.
   const bool tank = !f.record.column("/true/supply/tank_pressure").empty();
@@ -148,20 +152,18 @@ void add_machine(Figures& f) {
   add_rollers(f);
   add_cylinder(f);
   add_sensors(f);
-  f.add("supply.min_pressure_Pa", smallest, f.record.column("/true/supply/pressure"),
-        f.record.sequence());
+  f.add("supply.min_pressure_Pa", smallest, "/true/supply/pressure", f.record.sequence());
   add_endurance(f);
-  const Column tank = f.record.column("/true/supply/tank_pressure");
-  if (!tank.empty()) f.summary.add("supply.end_tank_pressure_Pa", tank.back());
-  const Column overruns = f.record.column("/low_level/overruns");
-  if (!overruns.empty()) f.summary.add("low_level.overruns", overruns.back());
+  const auto last = [](const Column& values, const Column&) { return values.back(); };
+  f.add("supply.end_tank_pressure_Pa", last, "/true/supply/tank_pressure", f.record.sequence());
+  f.add("low_level.overruns", last, "/low_level/overruns", f.record.sequence());
   if (f.machine.robot.legs.empty()) add_sole(f);
 }
 
 void add_sole(Figures& f) {
   for (const robot::Foot::Point& p : f.machine.robot.foot.points)
-    f.add("foot." + p.name + ".peak_load_true_N", largest,
-          f.record.column("/true/foot/" + p.name + "/load"), f.record.sequence());
+    f.add("foot." + p.name + ".peak_load_true_N", largest, "/true/foot/" + p.name + "/load",
+          f.record.sequence());
 }
 
 // --- muscles, passiveness, air, valves ---
@@ -308,33 +310,35 @@ void add_muscles(Figures& f) {
   for (std::size_t i = 0; i < f.machine.robot.muscles.size(); ++i) {
     const robot::Muscle& m = f.machine.robot.muscles[i];
     const std::string key = "muscles." + m.name + ".";
-    f.add(key + "peak_tension_N", largest, f.record.column("/true" + topic(m, "tension")),
-          sequence);
-    f.summary.add(key + "measured_peak_tension_N", measured_peak(f, reading(f, i)));
-    f.add(key + "own_scale_peak_tension_N", largest, f.record.column(topic(m, "tension")),
-          sequence);
-    f.summary.add(key + "clipped_share", clipped(f, reading(f, i)));
-    f.summary.add(key + "mean_inlet_duty", mean_duty(f, m, "inlet_duty"));
-    f.summary.add(key + "mean_exhaust_duty", mean_duty(f, m, "exhaust_duty"));
-    f.summary.add(key + "delivered_inlet_duty", delivered_duty(f, m, "inlet"));
-    f.summary.add(key + "delivered_exhaust_duty", delivered_duty(f, m, "exhaust"));
-    f.summary.add(key + "passiveness", passiveness(f, m));
-    f.summary.add(key + "passiveness_delivered", delivered_passiveness(f, m));
-    f.summary.add(key + "air_used_kg", air_in(f, m));
+    if (!f.wants(key)) continue;
+    f.add(key + "peak_tension_N", largest, "/true" + topic(m, "tension"), sequence);
+    f.add(key + "measured_peak_tension_N", [&] { return measured_peak(f, reading(f, i)); });
+    f.add(key + "own_scale_peak_tension_N", largest, topic(m, "tension"), sequence);
+    f.add(key + "clipped_share", [&] { return clipped(f, reading(f, i)); });
+    f.add(key + "mean_inlet_duty", [&] { return mean_duty(f, m, "inlet_duty"); });
+    f.add(key + "mean_exhaust_duty", [&] { return mean_duty(f, m, "exhaust_duty"); });
+    f.add(key + "delivered_inlet_duty", [&] { return delivered_duty(f, m, "inlet"); });
+    f.add(key + "delivered_exhaust_duty", [&] { return delivered_duty(f, m, "exhaust"); });
+    f.add(key + "passiveness", [&] { return passiveness(f, m); });
+    f.add(key + "passiveness_delivered", [&] { return delivered_passiveness(f, m); });
+    f.add(key + "air_used_kg", [&] { return air_in(f, m); });
   }
 }
 
-void add_passiveness(Figures& f) {
-  double commanded = no_figure, delivered = no_figure;
-  for (const robot::Muscle& m : f.machine.robot.muscles) {
-    commanded = std::fmin(commanded, passiveness(f, m));
-    delivered = std::fmin(delivered, delivered_passiveness(f, m));
-  }
-  f.summary.add("passiveness", commanded);
-  f.summary.add("passiveness_delivered", delivered);
+void add_smallest_passiveness(Figures& f, const std::string& key, const std::string& joint) {
+  const auto smallest_of = [&](const auto& share) {
+    double out = no_figure;
+    for (const robot::Muscle& m : f.machine.robot.muscles)
+      if (joint.empty() || m.joint == joint || m.second.joint == joint)
+        out = std::fmin(out, share(f, m));
+    return out;
+  };
+  f.add(key + "passiveness", [&] { return smallest_of(passiveness); });
+  f.add(key + "passiveness_delivered", [&] { return smallest_of(delivered_passiveness); });
 }
 
 void add_air(Figures& f) {
+  if (!f.wants("air_used_")) return;
   double all = 0, in_sequence = 0;
   for (const robot::Muscle& m : f.machine.robot.muscles) {
     all += air_in(f, m);
@@ -350,6 +354,7 @@ void add_air(Figures& f) {
 }
 
 void add_valves(Figures& f) {
+  if (!f.wants("valves.")) return;
   const std::size_t last = f.record.rows() - 1;
   const std::vector<Switching> valves = all_switching(f);
   if (valves.empty()) return;

@@ -9,9 +9,8 @@
 
 namespace sinew::analysis {
 
-namespace {
-
-void add_figures(Figures& figures, const signals::Table& table, const signals::Table& derived) {
+void add_figures(Figures& figures, const signals::Table& table, const signals::Table& derived,
+                 TopicNames* read) {
   add_run(figures);
   add_trolley(figures);
   const bool one_leg = figures.machine.robot.legs.empty();
@@ -19,7 +18,7 @@ void add_figures(Figures& figures, const signals::Table& table, const signals::T
     add_joints(figures);
     add_muscles(figures);
   }
-  add_passiveness(figures);
+  add_smallest_passiveness(figures, "");
   if (one_leg) {
     add_foot(figures);
     add_ground_reaction(figures);
@@ -29,8 +28,10 @@ void add_figures(Figures& figures, const signals::Table& table, const signals::T
   add_valves(figures);
   add_machine(figures);
   if (one_leg) add_phases(figures);
-  add_legs(figures, table, derived);
+  add_legs(figures, table, derived, read);
 }
+
+namespace {
 
 Summary summary_of(const Analysis& a) {
   const bool whole = a.ended.empty();

@@ -52,6 +52,7 @@ std::string with_reason(std::string text, std::string_view why) {
 
 // Returns the range that the value violates, the field's own or its unit's; empty if none.
 std::string out_of_bounds(const units::Field& field, double value) {
+  if (units::is_within(field, value)) return {};
   if (!(value >= field.min && value <= field.max)) {
     return with_reason(range_text(field.min, field.max, field.unit), field.why);
   }
@@ -60,7 +61,6 @@ std::string out_of_bounds(const units::Field& field, double value) {
     return with_reason("0, or at least " + least, field.why);
   }
   const units::Range& range = units::range_of(field.unit);
-  if (std::abs(value) <= range.most) return {};
   const double end = std::copysign(range.most, value);
   const std::string text = format_quantity(end, field.unit);
   return with_reason((value > 0 ? "at most " : "at least ") + text, range.why);

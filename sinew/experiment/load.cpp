@@ -1,6 +1,8 @@
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "sinew/config/changes.h"
 #include "sinew/config/compose.h"
@@ -12,7 +14,11 @@
 #include "sinew/experiment/experiment.h"
 #include "sinew/experiment/imported.fields.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/experiment/numbers.h"
+#include "sinew/robot/legs.h"
 #include "sinew/signals/tick.h"
+#include "sinew/units/hash.h"
+#include "sinew/units/ranges.h"
 
 namespace sinew::experiment {
 
@@ -45,6 +51,9 @@ void read_timing(Experiment& e) {
     e.timing = signals::identity_timing(static_cast<std::uint16_t>(e.robot.low_level.pwm_ticks));
   }
 }
+
+// Gives the plan the time before its first phase.
+void copy_settle(Experiment& e) { e.plan.settle = e.start.settle; }
 
 // Returns whether a file is in robots/<name>/, where numbers must have a source.
 bool in_robots(const std::string& file) {
@@ -82,16 +91,16 @@ Experiment read(const config::Node& root, std::string_view kind, const std::stri
   e.origins = reader.origins();
   e.warnings = reader.warnings();
   e.unsourced = reader.unsourced();
-  e.plan.settle = e.start.settle;
+  copy_settle(e);
   if ((runs && !e.stand) || kind == "robot") read_timing(e);
   refuse_contradictions(kind, e);
   return e;
 }
 
-// Writes the values in the order in which they are read best.
-void write(config::Writer& writer, std::string_view kind, Experiment& e) {
-  if (kind == "experiment") run_fields(writer, e);
-  machine_fields(writer, kind, e);
+// Visits the values in the order in which they are read best.
+void visit(units::EachField& visitor, std::string_view kind, Experiment& e) {
+  if (kind == "experiment") run_fields(visitor, e);
+  machine_fields(visitor, kind, e);
 }
 
 }  // namespace
@@ -127,7 +136,7 @@ MachineFile load_machine_file(const config::Node& root, const std::string& path)
 
 config::Node values_in_si(MachineFile file) {
   config::Writer writer;
-  write(writer, file.kind, file.experiment);
+  visit(writer, file.kind, file.experiment);
   return writer.root();
 }
 
@@ -146,12 +155,90 @@ std::string resolved(const MachineFile& file, const std::string& version) {
   std::string sinew = version;
   if (file.kind == "experiment")
     writer.text({.name = "sinew_version", .optional = true, .doc = "that ran"}, sinew);
-  write(writer, file.kind, e);
+  visit(writer, file.kind, e);
   return writer.text();
 }
 
 std::string resolved(const Experiment& experiment, const std::string& version) {
   return resolved(MachineFile{"experiment", experiment}, version);
+}
+
+// Numbers that are set.
+
+namespace {
+
+// Returns the keys of gains that the plan takes from the robot, each with the robot's key.
+std::map<std::string, std::string> inherited_gains(const Experiment& e) {
+  std::map<std::string, std::string> out;
+  if (e.stand) return out;
+  const std::vector<int> joints = robot::legs_of(e.robot).front().joints;
+  for (std::size_t j = 0; j < joints.size() && j < e.plan.joints.size(); ++j)
+    for (const std::string gain : {"angle", "stiffness", "velocity"}) {
+      const std::string key = "control.gains." + e.plan.joints[j].name + "." + gain;
+      const config::Origin* given = config::find_origin(e.origins, key);
+      const std::string& name = e.robot.joints[static_cast<std::size_t>(joints[j])].name;
+      if (!given || given->is_default) out[key] = "joint." + name + "." + gain + "_gain";
+    }
+  return out;
+}
+
+}  // namespace
+
+Numbers::Numbers(const Experiment& like, const std::vector<std::string>& keys)
+    : has_(keys.size()), units_(keys.size()), values_(keys.size()) {
+  const std::map<std::string, std::string> inherited = inherited_gains(like);
+  const auto find = [&](std::string_view key) {
+    return static_cast<std::size_t>(std::ranges::find(keys, key) - keys.begin());
+  };
+  units::EachField visitor([&](const units::VisitedField& f) {
+    hash_ = units::hash(f.path, hash_);
+    std::size_t& key = key_of_.emplace_back(absent);
+    if (!f.number && !f.whole) return;
+    if (const std::size_t own = find(f.path); own < keys.size()) {
+      key = own;
+      has_[own] = true;
+      values_[own] = f.number ? *f.number : *f.whole;
+      if (f.number) units_[own] = f.field.unit;
+    } else if (const auto from = inherited.find(std::string(f.path)); from != inherited.end()) {
+      if (const std::size_t robots = find(from->second); robots < keys.size()) key = robots;
+    }
+  });
+  Experiment e = like;  // visitors take values by reference
+  visit(visitor, "experiment", e);
+}
+
+bool Numbers::set(Experiment& e, std::span<const double> values) const {
+  std::uint64_t hash = 0;
+  std::size_t number = 0;
+  bool good = std::ranges::find(has_, false) == has_.end();
+  units::EachField visitor([&](units::VisitedField& f) {
+    hash = units::hash(f.path, hash);
+    const std::size_t key = number < key_of_.size() ? key_of_[number] : absent;
+    ++number;
+    if (key == absent) return;
+    const double value = values[key];
+    good = good && units::is_within(f.field, value) &&
+           (f.number || (f.whole && value == std::floor(value) && std::abs(value) < 1e9));
+    if (!good) return;
+    if (f.number) *f.number = value;
+    if (f.whole) *f.whole = static_cast<int>(value);
+  });
+  visitor.on_conflict([&](const auto&...) { good = false; });
+  visit(visitor, "experiment", e);
+  if (!good || hash != hash_) return false;
+  copy_settle(e);
+  // Numbers of a file's or a list's pulses are not set here, and stay.
+  if (!e.stand && e.pulses.closing.empty() && e.robot.low_level.valve_timing.empty())
+    read_timing(e);
+  return true;
+}
+
+bool same_values(const Experiment& a, const Experiment& b) {
+  const auto text = [](const Experiment& e) {
+    return config::to_toml(values_in_si({"experiment", e}));
+  };
+  return a.timing.closing == b.timing.closing && a.timing.opening == b.timing.opening &&
+         a.plan.settle == b.plan.settle && text(a) == text(b);
 }
 
 using signals::Tick;

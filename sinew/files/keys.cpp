@@ -75,7 +75,7 @@ std::string default_of(const units::VisitedField& f) {
 
 Key key_of(std::string_view kind, const units::VisitedField& f) {
   Key key{.kind = std::string(kind),
-          .path = f.path,
+          .path = std::string(f.path),
           .type = f.type,
           .per = std::string(f.per),
           .required = !f.field.optional,
@@ -110,7 +110,8 @@ std::vector<Key> keys_with(std::string_view kind, const Found& found) {
       [&](units::VisitedField& f) {
         if (f.type == KeyType::item) return;
         out.push_back(key_of(kind, f));
-        if (const auto given = found.find(f.path); given != found.end()) set(f, given->second);
+        if (const auto given = found.find(std::string(f.path)); given != found.end())
+          set(f, given->second);
       },
       units::EachField::Items::pattern);
   visit_tables(visitor, kind);

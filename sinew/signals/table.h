@@ -8,6 +8,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +39,9 @@ struct Series {
   Times time_ns;
   std::vector<Column> columns;  // [field][sample]
 };
+
+// Names of topics.
+using TopicNames = std::set<std::string, std::less<>>;
 
 // Returns whether the topic is a valve's, /valve/… or for a leg /leg/<name>/valve/…; such topics
 // record single edges.

@@ -75,17 +75,19 @@ void add_case(const Case& one, Point& out) {
 class Points {
  public:
   explicit Points(const Sweep& s)
-      : sweep_(s), shares_(s.sample ? shares(*s.sample) : std::vector<double>{}) {}
+      : sweep_(s),
+        shares_(s.sample ? shares(*s.sample) : std::vector<double>{}),
+        runs_(keys(s), s.allow_unreachable) {}
 
   Point at(std::size_t index) const;
-  config::Composer& files() const { return files_; }
+  run::Ensembles& runs() const { return runs_; }
 
  private:
   void add_sampled(std::size_t index, Point& out) const;
 
   const Sweep& sweep_;
   std::vector<double> shares_;
-  mutable config::Composer files_;
+  mutable run::Ensembles runs_;
 };
 
 void Points::add_sampled(std::size_t index, Point& out) const {
@@ -154,7 +156,7 @@ Row searched(const Sweep& s, const Points& points, std::size_t index, bool first
   const auto holds = [&](double number) {
     std::vector<std::string> sets = point.sets;
     sets.push_back(search.axis.set(search.axis.at(number)));
-    last = run_once(point.experiment, sets, s.allow_unreachable, points.files());
+    last = points.runs().run_once(point.experiment, sets);
     if (++runs == 1 && first && last.ok()) check_keys(s, last.summary);
     const bool all = last.ok() && std::ranges::all_of(search.where, [&](const Condition& c) {
                        return c.holds(last.summary);
@@ -180,8 +182,7 @@ Row searched(const Sweep& s, const Points& points, std::size_t index, bool first
 Row row_of(const Sweep& s, const Points& points, std::size_t index, bool first) {
   if (s.largest) return searched(s, points, index, first);
   Point point = points.at(index);
-  const RunResult result =
-      run_once(point.experiment, point.sets, s.allow_unreachable, points.files());
+  const RunResult result = points.runs().run_once(point.experiment, point.sets);
   return single(s, index, std::move(point), result, first);
 }
 
@@ -194,20 +195,14 @@ void run_in_thread(const Sweep& s, const Points& points, int lanes, const Next& 
     while (const std::optional<std::size_t> index = next()) done(row_of(s, points, *index, false));
     return;
   }
-  const auto wanted = [&]() -> std::optional<RequestedRun> {
-    const std::optional<std::size_t> index = next();
-    if (!index) return {};
-    Point point = points.at(*index);
-    return RequestedRun{*index, std::move(point.experiment), std::move(point.sets)};
+  const auto begin = [&](std::size_t index) {
+    const Point point = points.at(index);
+    return points.runs().begin(point.experiment, point.sets);
   };
   const auto result = [&](std::size_t index, const RunResult& its) {
     done(single(s, index, points.at(index), its, false));
   };
-  run_many({.next = wanted,
-            .done = result,
-            .allow_unreachable = s.allow_unreachable,
-            .lanes = lanes,
-            .files = &points.files()});
+  run::run_many({.next = next, .begin = begin, .done = result, .lanes = lanes});
 }
 
 // Runs these points on threads and passes their rows to done(), one at a time. Begins no further

@@ -23,16 +23,17 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/config/compose.h"
+#include "sinew/run/ensemble/many.h"
 #include "sinew/tune/axis.h"
 #include "sinew/tune/figure.h"
 #include "sinew/tune/sample.h"
 
 namespace sinew::tune {
 
-// Remarks about a row's figures. A table's status and a study's file use the same words.
+using run::run_once;
+using run::RunResult;
 
-struct RunResult;
+// Remarks about a row's figures. A table's status and a study's file use the same words.
 
 struct Notes {
   std::vector<std::string> lacks;    // keys that the summary of the run lacks
@@ -168,25 +169,6 @@ class Runner {
   std::unique_ptr<Drawn> drawn_;
 };
 
-// A run and its result, as `sinew run` would report it.
-struct RunResult {
-  std::string status = "ok";
-  analysis::Summary summary;  // empty unless the status is "ok"
-  double atmosphere = units::atmosphere;
-  bool no_air = false;               // no muscle took air, whatever was commanded
-  std::vector<std::string> differs;  // reported keys with the verdict "differs"
-
-  // Returns whether there are figures.
-  bool ok() const { return status == "ok"; }
-};
-// Runs an experiment's file with overriding settings. The status gives the reason if there are no
-// figures.
-RunResult run_once(const std::string& file, const std::vector<std::string>& sets,
-                   bool allow_unreachable = false);
-// Uses files that were read before.
-RunResult run_once(const std::string& file, const std::vector<std::string>& sets,
-                   bool allow_unreachable, config::Composer& files);
-
 // The largest value for which a condition holds, searched from below.
 //
 // The given values are tried up to the first for which it does not hold; then the interval between
@@ -218,25 +200,5 @@ Largest largest(const std::vector<double>& values, int halvings, Holds holds) {
   }
   return out;
 }
-
-// A requested run of run_many().
-struct RequestedRun {
-  std::size_t point = 0;  // identifies the run for the caller
-  std::string experiment;
-  std::vector<std::string> sets;
-};
-
-struct Many {
-  // Returns the next run, if there is one. Must not throw.
-  std::function<std::optional<RequestedRun>()> next;
-  // Receives the results, in any order. Must not throw.
-  std::function<void(std::size_t point, RunResult)> done;
-  bool allow_unreachable = false;
-  int lanes = 8;                      // largest number; 1: one after the other
-  config::Composer* files = nullptr;  // absent: files of this call alone
-};
-// Runs experiment files in parallel in the lanes of the processor (run/simulation/lanes.h). Each
-// result equals that of run_once().
-void run_many(const Many& many);
 
 }  // namespace sinew::tune

@@ -42,9 +42,9 @@ enum class FieldType {
 struct VisitedField {
   const Field& field;
   FieldType type;
-  std::string path = "";  // "joint.hip.damping", "fault[0].at"
-  std::string name = "";  // last part of the path; empty: an item of a list
-  std::size_t depth = 0;  // number of tables around it
+  std::string_view path = "";  // "joint.hip.damping", "fault[0].at"; valid during the call
+  std::string_view name = "";  // last part of the path; empty: an item of a list
+  std::size_t depth = 0;       // number of tables around it
 
   double* number = nullptr;
   std::vector<double>* numbers = nullptr;  // also the coefficients of a polynomial
@@ -133,11 +133,11 @@ class EachField {
     std::vector<T> pattern;
     if (items_ == Items::pattern) pattern.emplace_back();
     inside(f, FieldType::list, f.name, [&] {
-      const std::string outer = prefix_.substr(0, prefix_.size() - 1);
+      const std::size_t end = prefix_.size() - 1;  // without the dot
       std::size_t i = 0;
       for (T& item : items_ == Items::own ? items : pattern) {
-        const std::string index = items_ == Items::own ? std::to_string(i++) : "";
-        prefix_ = outer + "[" + index + "]";
+        prefix_.resize(end);
+        prefix_ += "[" + (items_ == Items::own ? std::to_string(i++) : "") + "]";
         inside(f, FieldType::item, "", [&] { visit(*this, item); });
       }
     });
@@ -151,29 +151,33 @@ class EachField {
   void call(VisitedField&& visited) { call(visited); }
   void call(VisitedField& visited) {
     visited.name = visited.field.name;
-    visited.path = prefix_ + visited.name;
+    visited.path = path_of(visited.name);
     visited.depth = depth_;
     function_(visited);
   }
+
+  std::string_view path_of(std::string_view name) { return path_.assign(prefix_).append(name); }
 
   // Calls the function with a table, and visits its fields.
   template <class Visit>
   void inside(const Field& f, FieldType type, std::string_view name, const Visit& visit) {
     VisitedField visited{.field = f, .type = type};
-    visited.path = prefix_ + std::string(name);
+    visited.path = path_of(name);
     visited.name = name;
     visited.depth = depth_;
     function_(visited);
-    const std::string outer = std::exchange(prefix_, visited.path + ".");
+    const std::size_t outer = prefix_.size();
+    prefix_.append(name).append(".");
     ++depth_;
     visit();
     --depth_;
-    prefix_ = outer;
+    prefix_.resize(outer);
   }
 
   Function function_;
   Items items_;
   std::string prefix_;  // path of the visited table, with a dot
+  std::string path_;    // of the visited field
   std::size_t depth_ = 0;
   Conflict conflict_;
 };

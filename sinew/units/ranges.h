@@ -7,6 +7,8 @@
 #include <array>
 #include <string_view>
 
+#include "sinew/units/field.h"
+
 namespace sinew::units {
 
 // Largest plausible magnitude of a quantity in one unit, with the reason.
@@ -77,6 +79,13 @@ constexpr const Range& range_of(std::string_view unit) {
   for (const Range& range : ranges)
     if (range.unit == unit) return range;
   return any_range;
+}
+
+// Returns whether a value is within a field's bounds and plausible for its unit.
+constexpr bool is_within(const Field& field, double value) {
+  const double size = value < 0 ? -value : value;
+  return value >= field.min && value <= field.max && !(value != 0 && size < field.least) &&
+         size <= range_of(field.unit).most;
 }
 
 }  // namespace sinew::units

@@ -12,7 +12,6 @@
 #include "sinew/analysis/measures/laws.h"
 #include "sinew/analysis/measures/trolley.h"
 #include "sinew/analysis/record/legs.h"
-#include "sinew/analysis/record/record.h"
 #include "sinew/robot/actuator_of.h"
 #include "sinew/robot/kinematics.h"
 #include "sinew/robot/legs.h"
@@ -27,11 +26,25 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 // Collects the series; one without values is left out.
 class Series {
  public:
-  // Prefixes topics with the leg of that name; empty for a machine with one leg.
-  explicit Series(const Record& record, std::string leg = "")
-      : record_(record), leg_(std::move(leg)) {}
+  // Prefixes topics with the leg of that name; empty for a machine with one leg. Series that are
+  // not `wanted` are left out.
+  Series(const Record& record, const TopicNames* wanted, std::string leg = "")
+      : record_(record), wanted_(wanted), leg_(std::move(leg)) {}
 
-  void scalar(const std::string& topic, std::string unit, std::string description, Column values) {
+  bool wants(std::string_view topic) const { return !wanted_ || wanted_->contains(name(topic)); }
+  // Returns whether the leg's push on the trolley is needed.
+  bool wants_pushes() const {
+    return !wanted_ || std::ranges::any_of(*wanted_, [](const std::string& topic) {
+      return topic.starts_with("/trolley/");
+    });
+  }
+
+  // Adds a series if it is wanted; values() computes it.
+  template <class Values>
+  void scalar(const std::string& topic, std::string unit, std::string description,
+              const Values& values_of) {
+    if (!wants(topic)) return;
+    Column values = values_of();
     if (values.empty()) return;
     table.series.push_back({{name(topic), std::move(description), {{"value", unit}}},
                             record_.time_ns(),
@@ -55,6 +68,7 @@ class Series {
   std::string name(std::string_view topic) const { return robot::topic_of_leg(leg_, topic); }
 
   const Record& record_;
+  const TopicNames* wanted_;
   std::string leg_;
 };
 
@@ -137,36 +151,44 @@ Column true_joint_stiffness(const Record& record, const Machine& m, std::size_t 
 
 void add_joint(Series& out, const Record& record, const Machine& m, std::size_t joint) {
   const std::string at = "/joint/" + m.robot.joints[joint].name;
-  const Column angle = record.column(at + "/angle");
-  const Column desired = record.column("/desired" + at + "/angle");
-  const Column error = rowwise(
-      record, [&](std::size_t i) { return turn_between(desired[i], angle[i]); }, angle, desired);
-
-  out.scalar(at + "/torque", "N m", "of the measured tensions", measured_torque(record, m, joint));
-  out.scalar(at + "/error", "rad", "measured - desired angle", error);
+  Column error;
+  if (out.wants(at + "/error") || out.wants(at + "/oscillation")) {
+    const Column angle = record.column(at + "/angle");
+    const Column desired = record.column("/desired" + at + "/angle");
+    error = rowwise(
+        record, [&](std::size_t i) { return turn_between(desired[i], angle[i]); }, angle, desired);
+  }
+  out.scalar(at + "/torque", "N m", "of the measured tensions",
+             [&] { return measured_torque(record, m, joint); });
+  out.scalar(at + "/error", "rad", "measured - desired angle", [&] { return error; });
   out.scalar(at + "/oscillation", "rad", "the error without its mean over 0.21 s",
-             high_passed(error, half_window(oscillation_window, record.period())));
+             [&] { return high_passed(error, half_window(oscillation_window, record.period())); });
   out.scalar("/true" + at + "/stiffness", "N m/rad", "of true lengths and pressures, [26]",
-             true_joint_stiffness(record, m, joint));
+             [&] { return true_joint_stiffness(record, m, joint); });
 }
 
 void add_passive(Series& out, const Record& record, const Machine& m) {
   for (const robot::Muscle& muscle : m.robot.muscles) {
     const std::string at = "/muscle/" + muscle.name;
-    const Column inlet = record.column(at + "/inlet_duty");
-    const Column exhaust = record.column(at + "/exhaust_duty");
-    out.scalar(at + "/passive", "1", "share of the period with both valves shut, as commanded",
-               rowwise(
-                   record, [&](std::size_t i) { return passive(m, muscle, inlet[i], exhaust[i]); },
-                   inlet, exhaust));
+    out.scalar(
+        at + "/passive", "1", "share of the period with both valves shut, as commanded", [&] {
+          const Column inlet = record.column(at + "/inlet_duty");
+          const Column exhaust = record.column(at + "/exhaust_duty");
+          return rowwise(
+              record, [&](std::size_t i) { return passive(m, muscle, inlet[i], exhaust[i]); },
+              inlet, exhaust);
+        });
   }
 }
 
 void add_leg(Series& out, const Record& record, const Machine& m) {
+  const bool wants_force = out.wants("/foot/force") || out.wants_pushes();
+  if (!wants_force && !out.wants("/foot/position")) return;
   const robot::TwoLinks links = robot::two_links(m.robot);
   const Column hip = record.column("/joint/" + m.robot.joints[0].name + "/angle");
   const Column knee = record.column("/joint/" + m.robot.joints[1].name + "/angle");
-  const Column t1 = measured_torque(record, m, 0), t2 = measured_torque(record, m, 1);
+  Column t1, t2;
+  if (wants_force) t1 = measured_torque(record, m, 0), t2 = measured_torque(record, m, 1);
 
   const auto position = [&](std::size_t i) { return robot::foot_position(links, hip[i], knee[i]); };
   const auto force = [&](std::size_t i) {
@@ -176,11 +198,13 @@ void add_leg(Series& out, const Record& record, const Machine& m) {
   const auto x = [](const auto& point) { return [&](std::size_t i) { return point(i).x; }; };
   const auto y = [](const auto& point) { return [&](std::size_t i) { return point(i).y; }; };
 
-  out.vector("/foot/position", "m", "of the ankle, of the measured angles [61], [62]",
-             rowwise(record, x(position), hip, knee), rowwise(record, y(position), hip, knee));
-  out.vector("/foot/force", "N", "on the foot by the ground, of the measured torques [75]",
-             rowwise(record, x(force), hip, knee, t1, t2),
-             rowwise(record, y(force), hip, knee, t1, t2));
+  if (out.wants("/foot/position"))
+    out.vector("/foot/position", "m", "of the ankle, of the measured angles [61], [62]",
+               rowwise(record, x(position), hip, knee), rowwise(record, y(position), hip, knee));
+  if (wants_force)
+    out.vector("/foot/force", "N", "on the foot by the ground, of the measured torques [75]",
+               rowwise(record, x(force), hip, knee, t1, t2),
+               rowwise(record, y(force), hip, knee, t1, t2));
 }
 
 // Push of the friction forces of [75] on the trolley: in the plan's stance, and until the foot is
@@ -219,13 +243,14 @@ void add_motion(Series& out, const Record& record, const robot::Trolley& trolley
                 const Column& push, const std::string& topic, const std::string& what) {
   TrolleyMotion motion =
       integrate(push, record.run(), trolley.drag, trolley.total_mass, record.first_row());
-  out.scalar(topic + "/position", "m", what, std::move(motion.position));
-  out.scalar(topic + "/velocity", "m/s", what, std::move(motion.velocity));
+  out.scalar(topic + "/position", "m", what, [&] { return std::move(motion.position); });
+  out.scalar(topic + "/velocity", "m/s", what, [&] { return std::move(motion.velocity); });
 }
 
 void add_trolley(Series& out, const Record& record, const Machine& m, const Pushes& push) {
   const robot::Trolley& trolley = m.robot.trolley;
-  if (!trolley.present || !(trolley.total_mass > 0) || push.loaded.empty()) return;
+  if (!out.wants_pushes() || !trolley.present || !(trolley.total_mass > 0) || push.loaded.empty())
+    return;
   add_motion(out, record, trolley, push.by_plan, "/trolley/by_plan",
              "of /foot/force in stance by plan, and drag");
   add_motion(out, record, trolley, push.loaded, "/trolley",
@@ -233,6 +258,7 @@ void add_trolley(Series& out, const Record& record, const Machine& m, const Push
 }
 
 void add_slip(Series& out, const Record& record, const Machine& m) {
+  if (!out.wants("/true/foot/slip")) return;
   std::array<Column, 2> angle, rate;
   for (std::size_t j = 0; j < 2; ++j) {
     const std::string at = "/true/joint/" + m.robot.joints[j].name;
@@ -250,7 +276,7 @@ void add_slip(Series& out, const Record& record, const Machine& m) {
                          m.robot.foot.radius, trolley[i]);
   };
   out.scalar("/true/foot/slip", "m/s", "of the foot's lowest point along the ground",
-             rowwise(record, slip, angle[0], angle[1], rate[0], rate[1], trolley));
+             [&] { return rowwise(record, slip, angle[0], angle[1], rate[0], rate[1], trolley); });
 }
 
 // Adds the series of one leg, without those of the trolley.
@@ -262,10 +288,11 @@ void add_one(Series& out, const Record& record, const Machine& machine) {
 
 }  // namespace
 
-signals::Table derive(const signals::Table& table, const Machine& machine) {
+signals::Table derive(const signals::Table& table, const Machine& machine, const TopicNames* wanted,
+                      TopicNames* read) {
   if (machine.stand) return {};
-  const Record record(table, machine);
-  Series out(record);
+  const Record record(table, machine, nullptr, "", read);
+  Series out(record, wanted);
   Pushes pushes;
   const auto add = [&](Series& series, const Record& its, const Machine& leg) {
     add_one(series, its, leg);
@@ -274,8 +301,8 @@ signals::Table derive(const signals::Table& table, const Machine& machine) {
   std::vector<MachineLeg> legs = legs_of(machine);
   if (legs.empty()) add(out, record, machine);
   for (const MachineLeg& leg : legs) {
-    const Record its(table, leg.machine, nullptr, leg.name);
-    Series series(its, leg.name);
+    const Record its(table, leg.machine, nullptr, leg.name, read);
+    Series series(its, wanted, leg.name);
     add(series, its, leg.machine);
     if (has_leg(leg.machine)) add_slip(series, its, leg.machine);
     std::ranges::move(series.table.series, std::back_inserter(out.table.series));

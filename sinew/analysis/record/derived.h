@@ -20,11 +20,14 @@
 #pragma once
 
 #include "sinew/analysis/record/machine.h"
+#include "sinew/analysis/record/record.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::analysis {
 
-// Returns the derived series; an empty table for a test stand.
-signals::Table derive(const signals::Table&, const Machine&);
+// Returns the derived series, or those of `wanted` alone; an empty table for a test stand. The
+// topics that they are computed from are added to `read`.
+signals::Table derive(const signals::Table&, const Machine&, const TopicNames* wanted = nullptr,
+                      TopicNames* read = nullptr);
 
 }  // namespace sinew::analysis

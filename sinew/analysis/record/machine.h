@@ -15,6 +15,7 @@
 #include "sinew/analysis/verdict/reported.h"
 #include "sinew/config/node.h"
 #include "sinew/config/reader.h"
+#include "sinew/gas/valve.h"
 #include "sinew/robot/robot.h"
 #include "sinew/robot/stand.h"
 #include "sinew/units/constants.h"
@@ -56,6 +57,11 @@ struct Machine {
 // Reads a robot or, where there is an [element], a test stand. Throws config::Error with all
 // mistakes in the keys that are read.
 Machine read_machine(const config::Node& root);
+
+// Replaces a robot's parts by those of another description of the same robot, and the period of the
+// log.
+void replace_parts(Machine&, const robot::Robot&, const std::vector<actuator::Actuator>&,
+                   const std::vector<gas::Valve>&, double atmosphere, double period);
 
 // Return whether a phase, an index of Machine::phases, is stance or swing by its name in 5.4:
 // `foot_plant` and `propulsion` are stance, `swing` is swing. Any other phase is neither.

@@ -33,8 +33,8 @@ Column Record::only(Wanted wanted) const {
 }
 
 Record::Record(const signals::Table& table, const Machine& machine, const signals::Table* more,
-               std::string leg)
-    : table_(&table), more_(more), machine_(&machine), leg_(std::move(leg)) {
+               std::string leg, TopicNames* read)
+    : table_(&table), more_(more), machine_(&machine), leg_(std::move(leg)), read_(read) {
   if (leg_.empty() && !machine.robot.legs.empty()) leg_ = machine.robot.legs.front().name;
   find_times();
   find_phase_spans();
@@ -112,18 +112,28 @@ const signals::Series* Record::find_in(const signals::Table& table, std::string_
   return table.find(robot::topic_of_leg(leg_, topic));
 }
 
+// Adds a topic to those that were read: by its name in the log, or in the leg if it is missing.
+void Record::note(const signals::Series* found, std::string_view topic) const {
+  if (read_) read_->insert(found ? found->topic.name : robot::topic_of_leg(leg_, topic));
+}
+
 const signals::Series* Record::logged(std::string_view topic) const {
-  return find_in(*table_, topic);
+  const signals::Series* found = find_in(*table_, topic);
+  note(found, topic);
+  return found;
 }
 
 const signals::Series* Record::find(std::string_view topic) const {
-  const signals::Series* found = logged(topic);
-  return found || !more_ ? found : find_in(*more_, topic);
+  const signals::Series* found = find_in(*table_, topic);
+  if (!found && more_) found = find_in(*more_, topic);
+  note(found, topic);
+  return found;
 }
 
 Column Record::column(std::string_view topic, std::string_view field) const {
   for (const signals::Table* table : {table_, more_}) {
     const signals::Series* series = table ? find_in(*table, topic) : nullptr;
+    note(series, topic);
     if (!series) continue;
     for (std::size_t f = 0; f < series->topic.fields.size(); ++f)
       if (series->topic.fields[f].name == field && !series->columns[f].empty())

@@ -21,6 +21,7 @@
 namespace sinew::analysis {
 
 using signals::Column;  // a value per row; empty if the log lacks the topic
+using signals::TopicNames;
 
 // One phase of one step: rows first .. last - 1.
 struct PhaseSpan {
@@ -32,9 +33,10 @@ class Record {
  public:
   // `more` may hold derived series; all three must outlive the record. `leg` is the name of the leg
   // if the machine is one leg of several (only_leg); its topics are then found by their names
-  // without the leg's prefix.
+  // without the leg's prefix. The names of all topics that are read, and of those that were
+  // searched in vain, are added to `read`.
   Record(const signals::Table& table, const Machine& machine, const signals::Table* more = nullptr,
-         std::string leg = "");
+         std::string leg = "", TopicNames* read = nullptr);
 
   // Number of rows, and their times.
   std::size_t rows() const { return seconds_.size(); }
@@ -88,6 +90,7 @@ class Record {
   }
   const signals::Series* find_in(const signals::Table& table, std::string_view topic) const;
   const signals::Series* logged(std::string_view topic) const;  // in the log itself
+  void note(const signals::Series* found, std::string_view topic) const;
   void find_times();
   void find_phase_spans();
   // Returns the durations of the rows for which wanted(span)(row) holds, and 0 for the others.
@@ -98,6 +101,7 @@ class Record {
   const signals::Table* more_;
   const Machine* machine_;
   std::string leg_;  // leg whose topics are read; empty for a machine with one leg
+  TopicNames* read_;
   signals::Times time_ns_;
   std::int64_t last_ns_ = 0;  // duration of the last row
   Column seconds_, sequence_, stance_, swing_;

@@ -87,7 +87,8 @@ std::vector<MachineNumber> machine_numbers(Experiment& e) {
   units::EachField visitor([&](const units::VisitedField& f) {
     const bool of_list = f.path.find('[') != f.path.npos;
     if (f.number && !of_list)
-      out.push_back({f.path, std::string(f.field.unit), f.field.min, f.field.max, f.number});
+      out.push_back(
+          {std::string(f.path), std::string(f.field.unit), f.field.min, f.field.max, f.number});
   });
   experiment::machine_fields(visitor, e);
   visitor.group({.name = "start"}, [&](auto& g) { experiment::fields(g, e.start); });

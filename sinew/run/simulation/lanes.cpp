@@ -52,13 +52,17 @@ class Bounds {
   std::vector<Tick> lag_;  // for the conversions read at a tick of the period
 };
 
+RunOptions options_of(const Lanes& lanes, const Experiment& e) {
+  return {.recorded = lanes.recorded, .topics = lanes.topics ? lanes.topics(e) : nullptr};
+}
+
 // An experiment in its lane.
 class Lane {
  public:
-  Lane(const Experiment& e, const plant::LegLane& machine, bool recorded)
+  Lane(const Experiment& e, const plant::LegLane& machine, const RunOptions& options)
       : experiment(e),
         simulation_(e, machine),
-        run_(simulation_, {.recorded = recorded}),
+        run_(simulation_, options),
         bounds_(simulation_.controllers().scan()) {}
 
   // Visits the present tick, whose nodes are committed; returns the time to which they must be
@@ -93,7 +97,7 @@ void run_alone(const Lanes& lanes, const Experiment& e) {
   Outcome out;
   std::exception_ptr thrown;
   try {
-    out = run(e, {.recorded = lanes.recorded});
+    out = run(e, options_of(lanes, e));
   } catch (...) {
     thrown = std::current_exception();
   }
@@ -117,7 +121,7 @@ class Group {
     try {
       batch_.replace(k, setup);
       running_[static_cast<std::size_t>(k)] =
-          std::make_unique<Lane>(e, plant::LegLane(batch_, k), lanes_.recorded);
+          std::make_unique<Lane>(e, plant::LegLane(batch_, k), options_of(lanes_, e));
       return;
     } catch (...) {
       thrown = std::current_exception();

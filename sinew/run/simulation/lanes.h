@@ -28,6 +28,9 @@ struct Lanes {
   // only if `most` is 2, since they are no faster.
   int most = 8;
   bool recorded = true;  // false: an outcome has an empty table, and nothing derived from it
+  // Returns the topics that a run's table records, which must exist until it is done; nullptr, and
+  // absent: all.
+  std::function<const signals::TopicNames*(const experiment::Experiment&)> topics = {};
 };
 // Runs all experiments that `next` returns, side by side; returns when the last is done.
 void run_in_lanes(const Lanes& lanes);

@@ -22,7 +22,7 @@ RecordedRun::RecordedRun(Simulation& simulation, const RunOptions& options)
       start_(std::chrono::steady_clock::now()) {
   if (!options.recorded) return;
   watch_.recorder = &recorder_.emplace(simulation.experiment(), simulation.controllers(),
-                                       simulation.machine(), simulation.last());
+                                       simulation.machine(), simulation.last(), options.topics);
   if (options.tap.push) recorder_->tap(options.tap, options.tapped);
   recorder_->progress(options.progress);
 }

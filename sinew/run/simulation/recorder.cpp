@@ -25,18 +25,24 @@ Samples room(const signals::PageFile& pages, std::size_t most) {
 }  // namespace
 
 Recorder::Recorder(const experiment::Experiment& e, const Controllers& controllers,
-                   plant::Machine* machine, Tick end)
+                   plant::Machine* machine, Tick end, const signals::TopicNames* wanted)
     : controllers_(controllers), machine_(machine) {
   period_ = std::max<Tick>(1, std::llround(e.log.period / signals::tick_seconds));
   next_ = controllers.first_sample(period_);
 
   // Without true values, the topics under /true have no samples.
-  columns_ = columns(e);
+  const auto is_wanted = [&](const signals::Topic& topic) {
+    return !wanted || wanted->contains(topic.name);
+  };
   topics_ = topics(e);
-  first_edge_ = columns_.size();
   std::size_t width = 0;  // numbers in a row
-  for (const Column& c : columns_)
-    if (machine_ || !c.is_simulated_only()) width += c.topic.fields.size();
+  for (Column& c : columns(e)) {
+    const std::size_t topic = first_edge_++;
+    if (!is_wanted(c.topic) || (!machine_ && c.is_simulated_only())) continue;
+    width += c.topic.fields.size();
+    needs_truths_ = needs_truths_ || c.is_simulated_only();
+    columns_.push_back({std::move(c), topic});
+  }
 
   // Reserve storage for the largest number of samples and edges.
   const auto samples = static_cast<std::size_t>(end / period_ + 2);
@@ -47,26 +53,29 @@ Recorder::Recorder(const experiment::Experiment& e, const Controllers& controlle
   }
   row_time_ns_ = room<signals::Times>(pages_, samples);
   for (std::size_t i = 0; i < width; ++i) values_.push_back(room<signals::Column>(pages_, samples));
-  for (std::size_t i = first_edge_; i < topics_.size(); ++i)
-    edges_.push_back({room<signals::Times>(pages_, edges), room<signals::Column>(pages_, edges)});
+  for (std::size_t i = first_edge_; i < topics_.size(); ++i) {
+    const bool is = is_wanted(topics_[i]);
+    const std::size_t most = is ? edges : 0;
+    edges_.push_back({is, room<signals::Times>(pages_, most), room<signals::Column>(pages_, most)});
+  }
 }
 
 void Recorder::command(Tick t) noexcept {
   if (progress_) progress_->store(t, std::memory_order_relaxed);
 }
 
-// Stores the numbers of the topic at the cursor.
-void Recorder::put(std::span<const double> values) noexcept {
+// Stores the numbers of a topic.
+void Recorder::put(std::size_t topic, std::span<const double> values) noexcept {
   for (const double value : values) keep(values_[number_++], value);
-  if (tap_.push && tapped_[cursor_] != not_tapped)
-    tap_.push(tap_.object, tapped_[cursor_], now_ns_, values);
-  ++cursor_;
+  if (tap_.push && tapped_[topic] != not_tapped)
+    tap_.push(tap_.object, tapped_[topic], now_ns_, values);
 }
 
 void Recorder::edge(const signals::Edge& edge) noexcept {
   const double value = logged(edge);
   const std::size_t topic = first_edge_ + edge.valve.index;
   Edges& of_valve = edges_[edge.valve.index];
+  if (!of_valve.wanted) return;
   keep(of_valve.time_ns, edge.at * signals::tick_nanoseconds);
   keep(of_valve.values, value);
   if (tap_.push && tapped_[topic] != not_tapped)
@@ -89,7 +98,7 @@ signals::Table Recorder::take() {
   if (!complete_) leave_out_parts();
   signals::Table table;
   table.complete = complete_;
-  std::size_t column = 0;  // index in a row
+  std::size_t column = 0, number = 0;  // index of a recorded column, and in a row
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     signals::Series s{std::move(topics_[i]), {}, {}};
     s.columns.resize(s.topic.fields.size());
@@ -97,9 +106,10 @@ signals::Table Recorder::take() {
       Edges& of_valve = edges_[i - first_edge_];
       s.time_ns = std::move(of_valve.time_ns);
       s.columns[0] = std::move(of_valve.values);
-    } else if (column < values_.size()) {
+    } else if (column < columns_.size() && columns_[column].topic == i) {
       s.time_ns = row_time_ns_;
-      for (signals::Column& values : s.columns) values = std::move(values_[column++]);
+      for (signals::Column& values : s.columns) values = std::move(values_[number++]);
+      ++column;
     }
     table.series.push_back(std::move(s));
   }
@@ -112,15 +122,14 @@ void Recorder::sample(Tick t) noexcept {
   if (!controllers_.has_state_of(t)) return;  // its message from a remote board is lost
   now_ns_ = t * signals::tick_nanoseconds;
   keep(row_time_ns_, now_ns_);
-  cursor_ = number_ = 0;
+  number_ = 0;
   const double time = static_cast<double>(t) * signals::tick_seconds;
-  if (machine_) machine_->truth(time, truths_);
+  if (machine_ && needs_truths_) machine_->truth(time, truths_);
   controllers_.with_snapshot(time, &truths_, [&](const Snapshot& now) {
-    for (const Column& c : columns_) {
-      if (!machine_ && c.is_simulated_only()) break;  // they are last in the list
+    for (const Recorded& recorded : columns_) {
       std::array<double, 2> values{};
-      c.value(now, values.data());
-      put({values.data(), c.topic.fields.size()});
+      recorded.column.value(now, values.data());
+      put(recorded.topic, {values.data(), recorded.column.topic.fields.size()});
     }
   });
 }

@@ -33,9 +33,10 @@ struct Tap {
 class Recorder {
  public:
   // Records the controllers and the machine, which must outlive it, up to the tick `end`. `machine`
-  // is nullptr for a body that is not simulated.
+  // is nullptr for a body that is not simulated. Of the topics, only those of `wanted` are recorded
+  // if it is given; the table's series of the others are empty.
   Recorder(const experiment::Experiment& experiment, const Controllers& controllers,
-           plant::Machine* machine, signals::Tick end);
+           plant::Machine* machine, signals::Tick end, const signals::TopicNames* wanted = nullptr);
 
   // Also passes each sample to a receiver, with the receiver's topic for each series.
   void tap(Tap t, std::vector<std::uint16_t> topic_of_series) {
@@ -57,7 +58,7 @@ class Recorder {
   std::string problem() const { return complete_ ? "" : pages_.problem(); }
 
  private:
-  void put(std::span<const double> values) noexcept;
+  void put(std::size_t topic, std::span<const double> values) noexcept;
 
   const Controllers& controllers_;
   plant::Machine* machine_;
@@ -70,13 +71,19 @@ class Recorder {
   }
   void leave_out_parts();
 
+  struct Recorded {  // a column and its topic
+    Column column;
+    std::size_t topic;
+  };
   struct Edges {  // edges of one valve
+    bool wanted = true;
     signals::Times time_ns;
     signals::Column values;
   };
 
-  std::vector<Column> columns_;
-  std::vector<signals::Topic> topics_;   // those of the columns, then those of the valves
+  std::vector<Recorded> columns_;
+  bool needs_truths_ = false;
+  std::vector<signals::Topic> topics_;   // those of all columns, then those of the valves
   std::size_t first_edge_ = 0;           // topic of the first valve
   signals::PageFile pages_;              // storage for the samples of a long run
   signals::Times row_time_ns_;           // times of all numbers below
@@ -84,7 +91,7 @@ class Recorder {
   std::vector<Edges> edges_;             // one per valve
   bool complete_ = true;
 
-  std::size_t cursor_ = 0, number_ = 0;  // topic and number in the row of the next put()
+  std::size_t number_ = 0;  // in the row, of the next put()
   std::int64_t now_ns_ = 0;
   signals::Tick period_ = 100, next_ = 0;
   Tap tap_;

@@ -34,6 +34,7 @@ struct RunOptions {
   const std::atomic<bool>* stop = nullptr;        // true: the run ends at its present state
   bool every_tick = false;                        // visits each tick: slower, same bits
   bool recorded = true;                           // false: the outcome's table is empty
+  const signals::TopicNames* topics = nullptr;    // those that the table records; nullptr: all
   int extra_readers = 0;                          // additional readings per event: same bits
   int threads = 0;                      // for a sweep of duties; 0: all processors. Same bits
   RealBody body;                        // replaces the simulated machine, in real time

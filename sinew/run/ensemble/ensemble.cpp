@@ -1,0 +1,277 @@
+#include "sinew/run/ensemble/ensemble.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "sinew/analysis/summary.h"
+#include "sinew/analysis/verdict/reported.h"
+#include "sinew/config/quantity.h"
+#include "sinew/experiment/check.h"
+#include "sinew/host/side_by_side.h"
+#include "sinew/run/ensemble/many.h"
+#include "sinew/run/setup/buildable.h"
+
+namespace sinew::run {
+namespace {
+
+// Figures that notes about a run need.
+constexpr std::string_view of_notes[] = {"trolley.stop_reached_s", "unreachable_share"};
+
+std::vector<std::string> with_notes(std::vector<std::string> figures) {
+  for (const std::string_view key : of_notes) figures.emplace_back(key);
+  return figures;
+}
+
+// Returns the value of a text in SI; nothing if it is no quantity of that unit.
+std::optional<double> value_of(const std::string& text, const std::string& unit,
+                               double atmosphere) {
+  const config::Parsed parsed = config::parse_quantity(text, unit.empty() ? "1" : unit, atmosphere);
+  if (parsed.mistake) return {};
+  return parsed.si;
+}
+
+std::string text_of(double value, const std::string& unit) {
+  return unit.empty() ? config::format_number(value) : config::format_quantity(value, unit);
+}
+
+// Throws config::Error as reading the file does.
+void refuse_wrong(const experiment::Experiment& e, bool allow_unreachable) {
+  experiment::refuse_contradictions("experiment", e);
+  refuse_unbuildable(e);
+  if (!allow_unreachable) experiment::refuse_unreachable(e);
+}
+
+// Gives the machine the parts of the experiment.
+void describe(const experiment::Experiment& e, analysis::Machine& out) {
+  analysis::replace_parts(out, e.robot, e.actuators, e.valves, e.air.atmosphere, e.log.period);
+  for (std::size_t i = 0; i < out.faults.size(); ++i) {
+    out.faults[i].begin = e.faults[i].at;
+    out.faults[i].end = experiment::end_of(e.faults[i]);
+  }
+}
+
+std::string status_of(const experiment::Experiment& e, const Outcome& outcome) {
+  if (outcome.ended_early()) return "ended early: " + cause_of(e, outcome);
+  if (!outcome.table.complete) return "more valve edges than there was room for";
+  return "ok";
+}
+
+// Adds judgements of the figures that are not part of the summary.
+void compare_with_reported(const analysis::Machine& machine, RunResult& out) {
+  for (const analysis::Verdict& v :
+       analysis::compare(out.summary, machine.reported, machine.atmosphere))
+    if (v.agreement == analysis::Verdict::Agreement::differs) out.differs.push_back(v.key);
+}
+
+}  // namespace
+
+Ensemble::Ensemble(const std::string& experiment, const std::vector<std::string>& sets,
+                   std::vector<std::string> parameters, std::vector<std::string> figures,
+                   bool allow_unreachable)
+    : own_(std::make_unique<config::Composer>()),
+      files_(own_.get()),
+      experiment_(experiment),
+      sets_(sets),
+      parameters_(std::move(parameters)),
+      figures_(std::move(figures)),
+      allow_unreachable_(allow_unreachable),
+      start_(start({})) {
+  for (const std::string& key : unknown())
+    config::fail({experiment, 0, 0}, key, "a parameter", "a number of the experiment",
+                 "sinew show " + experiment);
+}
+
+Ensemble::Ensemble(config::Composer& files, const std::string& experiment,
+                   std::vector<std::string> sets, std::vector<std::string> parameters,
+                   const std::vector<std::string>& values, std::vector<std::string> figures,
+                   bool allow_unreachable)
+    : files_(&files),
+      experiment_(experiment),
+      sets_(std::move(sets)),
+      parameters_(std::move(parameters)),
+      figures_(std::move(figures)),
+      allow_unreachable_(allow_unreachable),
+      start_(start(values)) {}
+
+Ensemble::Start Ensemble::start(const std::vector<std::string>& values) const {
+  std::unique_ptr<Member> first = read(values);
+  experiment::Numbers numbers(first->experiment, parameters_);
+  return {std::move(first->experiment), std::move(first->machine), std::move(numbers), values};
+}
+
+std::vector<std::string> Ensemble::unknown() const {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < parameters_.size(); ++i)
+    if (!start_.numbers.has(i)) out.push_back(parameters_[i]);
+  return out;
+}
+
+// Reads the file with these values; without values, as it is.
+std::unique_ptr<Ensemble::Member> Ensemble::read(const std::vector<std::string>& values) const {
+  std::vector<std::string> sets = sets_;
+  for (std::size_t i = 0; i < values.size(); ++i) sets.push_back(parameters_[i] + "=" + values[i]);
+  const config::Node root = files_->compose(experiment_, sets);
+  auto out = std::make_unique<Member>();
+  out->machine = analysis::read_machine(root);
+  out->experiment = buildable(root, experiment_);
+  if (!allow_unreachable_) experiment::refuse_unreachable(out->experiment);
+  return out;
+}
+
+std::unique_ptr<Ensemble::Member> Ensemble::spare() const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!spare_.empty()) {
+      std::unique_ptr<Member> out = std::move(spare_.back());
+      spare_.pop_back();
+      return out;
+    }
+  }
+  return std::make_unique<Member>(Member{start_.experiment, start_.machine, nullptr});
+}
+
+// Returns the run with these values in SI without reading the file; null if it must be read.
+std::unique_ptr<Ensemble::Member> Ensemble::set(std::span<const double> values) const {
+  std::unique_ptr<Member> out = spare();
+  if (!start_.numbers.set(out->experiment, values)) return nullptr;
+  try {
+    refuse_wrong(out->experiment, allow_unreachable_);
+  } catch (const config::Error&) {
+    return nullptr;  // the file's error names the place of each value
+  }
+  describe(out->experiment, out->machine);
+  return out;
+}
+
+// Returns whether each parameter with a new value has been compared.
+bool Ensemble::is_compared(std::span<const double> values) const {
+  const std::lock_guard lock(mutex_);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i] != start_.numbers.values()[i] && !(i < compared_.size() && compared_[i]))
+      return false;
+  return true;
+}
+
+// Compares an experiment whose numbers were set with one that was read: a number may determine
+// others that the file does not give.
+void Ensemble::compare(const Member& set, const Member& read,
+                       std::span<const double> values) const {
+  const bool equal = experiment::same_values(set.experiment, read.experiment);
+  const std::lock_guard lock(mutex_);
+  reads_ = reads_ || !equal;
+  compared_.resize(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i] != start_.numbers.values()[i]) compared_[i] = true;
+}
+
+std::unique_ptr<Ensemble::Member> Ensemble::member(std::span<const double> values,
+                                                   const std::vector<std::string>& texts) const {
+  std::shared_ptr<const analysis::Selection> selection;
+  bool reads = false;
+  {
+    const std::lock_guard lock(mutex_);
+    selection = selection_;
+    reads = reads_;
+  }
+  std::unique_ptr<Member> out;
+  if (texts == start_.values)
+    return std::make_unique<Member>(
+        Member{start_.experiment, start_.machine, std::move(selection)});
+  if (!reads && values.size() == parameters_.size()) out = set(values);
+  if (!out) {
+    out = read(texts);
+  } else if (!is_compared(values)) {
+    std::unique_ptr<Member> same = read(texts);
+    compare(*out, *same, values);
+    out = std::move(same);
+  }
+  out->selection = std::move(selection);
+  return out;
+}
+
+std::unique_ptr<Ensemble::Member> Ensemble::member(const std::vector<std::string>& values) const {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (const auto value = value_of(values[i], units()[i], start_.experiment.air.atmosphere))
+      numbers.push_back(*value);
+  return member(numbers, values);
+}
+
+RunResult Ensemble::result(std::unique_ptr<Member> member, const Outcome& outcome) const {
+  RunResult out{.status = status_of(member->experiment, outcome)};
+  const analysis::Machine& machine = member->machine;
+  out.atmosphere = machine.atmosphere;
+  if (out.ok()) {
+    std::optional<analysis::Summary> figures;
+    if (member->selection) figures = member->selection->figures(outcome.table, machine);
+    if (figures) {
+      out.summary = std::move(*figures);
+    } else {
+      const Outcome whole = member->selection ? run::run(member->experiment) : Outcome{};
+      const signals::Table& table = member->selection ? whole.table : outcome.table;
+      out.summary = analysis::summarize(table, machine);
+      out.no_air = !analysis::unused_air(table, machine).empty();
+      const std::lock_guard lock(mutex_);
+      if (!selection_ && !member->experiment.stand)
+        selection_ =
+            std::make_shared<const analysis::Selection>(with_notes(figures_), table, machine);
+    }
+    compare_with_reported(machine, out);
+  }
+  const std::lock_guard lock(mutex_);
+  spare_.push_back(std::move(member));
+  return out;
+}
+
+std::vector<std::string> Ensemble::run(std::span<const double> values, std::span<double> figures,
+                                       const Options& options) const {
+  const std::size_t width = parameters_.size(), wide = figures_.size();
+  const std::size_t rows =
+      width > 0 ? values.size() / width : figures.size() / std::max<std::size_t>(1, wide);
+  if (values.size() != rows * width || figures.size() != rows * wide)
+    throw std::invalid_argument(
+        fmt::format("found {} values and room for {} figures; expected {} and {} for each run",
+                    values.size(), figures.size(), width, wide));
+  std::ranges::fill(figures, std::numeric_limits<double>::quiet_NaN());
+  std::vector<std::string> status(rows, "not run");
+  std::atomic<std::size_t> taken{0};
+  const auto next = [&]() -> std::optional<std::size_t> {
+    if (options.stop && options.stop->load()) return {};
+    const std::size_t row = taken++;
+    if (row >= rows) return {};
+    return row;
+  };
+  const auto begin = [&](std::size_t row) {
+    const std::span<const double> its = values.subspan(row * width, width);
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < width; ++i) texts.push_back(text_of(its[i], units()[i]));
+    // The ensemble outlives its runs, so that they need not own a share.
+    return BegunRun{{std::shared_ptr<void>(), this}, member(its, texts)};
+  };
+  const auto done = [&](std::size_t row, const RunResult& result) {
+    status[row] = result.status;
+    for (std::size_t i = 0; i < wide; ++i)
+      if (const double* figure = result.summary.find(figures_[i]))
+        figures[row * wide + i] = *figure;
+    if (options.progress) ++*options.progress;
+  };
+  const auto threads = std::min<std::size_t>(
+      static_cast<std::size_t>(host::threads_of(options.threads)), std::max<std::size_t>(1, rows));
+  host::side_by_side(
+      threads,
+      [&](std::size_t) {
+        run_many({.next = next, .begin = begin, .done = done, .lanes = options.lanes});
+      },
+      nullptr, static_cast<int>(threads));
+  return status;
+}
+
+}  // namespace sinew::run

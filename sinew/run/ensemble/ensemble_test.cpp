@@ -1,0 +1,191 @@
+// Runs of an ensemble equal single runs of the same values, to the bit, in every figure.
+#include "sinew/run/ensemble/ensemble.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "sinew/analysis/summary.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+#include "sinew/run/ensemble/many.h"
+#include "sinew/run/setup/buildable.h"
+#include "tests/places.h"
+
+namespace sinew::run::ensemble_test {
+namespace {
+
+const std::string experiments = test::source_dir() + "/experiments/";
+const std::string walk = experiments + "walk-test-1.toml";
+const std::string leg = experiments + "leg-in-air.toml";
+
+template <class Act>
+std::string message(Act act) {
+  try {
+    act();
+  } catch (const config::Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+// Numbers of the robot, its air, its controller, its start and its noise; two of them determine
+// gains of the plan that the file does not give.
+struct Parameter {
+  std::string key, unit;
+  double low = 0, high = 1;
+};
+const std::vector<Parameter> parameters = {
+    {"joint.hip.angle_gain", "1/count", 2e-4, 6e-4},
+    {"joint.knee.damping", "N m s/rad", 0.05, 0.5},
+    {"link.femur.mass", "kg", 0.2, 0.4},
+    {"valve.inlet.flow.area", "m2", 6e-7, 1.2e-6},
+    {"start.pressure", "Pa abs", 1.02e5, 2e5},
+    {"start.settle", "s", 0.1, 0.4},
+    {"sequence.repeat", "", 1, 2},
+    {"seed", "", 1, 1e6},
+};
+
+std::vector<std::string> keys_of(const std::vector<Parameter>& all) {
+  std::vector<std::string> out;
+  for (const Parameter& p : all) out.push_back(p.key);
+  return out;
+}
+
+std::vector<double> draw(std::size_t rows, std::mt19937& random) {
+  std::vector<double> out;
+  for (std::size_t r = 0; r < rows; ++r)
+    for (const Parameter& p : parameters) {
+      const double value = std::uniform_real_distribution(p.low, p.high)(random);
+      out.push_back(p.unit.empty() ? std::round(value) : value);
+    }
+  return out;
+}
+
+RunResult single(const std::string& file, std::span<const double> values) {
+  std::vector<std::string> sets;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Parameter& p = parameters[i];
+    sets.push_back(p.key + "=" +
+                   (p.unit.empty() ? config::format_number(values[i])
+                                   : config::format_quantity(values[i], p.unit)));
+  }
+  return run_once(file, sets);
+}
+
+const std::vector<std::string> figures = {"joints.hip.tracking_rms_rad",
+                                          "air_used_kg",
+                                          "muscles.knee_flexor.passiveness_delivered",
+                                          "valves.switchings",
+                                          "duration_s",
+                                          "foot.step_repeat_rms_m",
+                                          "no.such_figure"};
+
+TEST(Ensemble, ARowHasTheBitsOfASingleRun) {
+  std::mt19937 random(7);
+  constexpr std::size_t rows = 12;
+  const std::vector<double> values = draw(rows, random);
+  const Ensemble ensemble(leg, {}, keys_of(parameters), figures);
+  std::vector<double> found(rows * figures.size());
+  const std::vector<std::string> status = ensemble.run(values, found, {.threads = 2});
+  for (std::size_t r = 0; r < rows; ++r) {
+    const RunResult one =
+        single(leg, std::span(values).subspan(r * parameters.size(), parameters.size()));
+    EXPECT_EQ(status[r], one.status) << r;
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+      const double* expected = one.summary.find(figures[i]);
+      const double is = found[r * figures.size() + i];
+      if (expected)
+        EXPECT_EQ(is, *expected) << r << " " << figures[i];
+      else
+        EXPECT_TRUE(std::isnan(is)) << r << " " << figures[i];
+    }
+  }
+  EXPECT_EQ(found[1],
+            *single(leg, std::span(values).first(parameters.size())).summary.find("air_used_kg"));
+}
+
+TEST(Ensemble, IsTheSameForAnyNumberOfThreadsAndLanes) {
+  std::mt19937 random(8);
+  const std::vector<double> values = draw(9, random);
+  const Ensemble ensemble(leg, {}, keys_of(parameters), {"air_used_kg"});
+  std::vector<double> alone(9), many(9);
+  (void)ensemble.run(values, alone, {.threads = 1, .lanes = 1});
+  for (const int threads : {1, 2, 5})
+    for (const int lanes : {1, 2, 8}) {
+      (void)ensemble.run(values, many, {.threads = threads, .lanes = lanes});
+      EXPECT_EQ(alone, many) << threads << " threads, " << lanes << " lanes";
+    }
+}
+
+// A refused row has the words of a single run, and others are not disturbed.
+TEST(Ensemble, ARefusedRowSaysWhy) {
+  const Ensemble ensemble(leg, {}, {"link.femur.mass"}, {"air_used_kg"});
+  const std::vector<double> values = {0.3, -1, std::nan(""), 1e9, 0.3};
+  std::vector<double> found(values.size());
+  const std::vector<std::string> status = ensemble.run(values, found);
+  EXPECT_EQ(status[0], "ok");
+  EXPECT_EQ(status[1], run_once(leg, {"link.femur.mass=-1 kg"}).status);
+  EXPECT_NE(status[1].find("refused: "), std::string::npos);
+  EXPECT_NE(status[2].find("refused: "), std::string::npos);
+  EXPECT_EQ(status[3], run_once(leg, {"link.femur.mass=1e+09 kg"}).status);
+  EXPECT_EQ(found[0], found[4]);
+  EXPECT_TRUE(std::isnan(found[1]));
+}
+
+TEST(Ensemble, RefusesAParameterThatIsNoNumber) {
+  EXPECT_NE(message([] { Ensemble(leg, {}, {"joint.hip.dampign"}, {}); }).find("joint.hip.dampign"),
+            std::string::npos);
+  EXPECT_NE(message([] { Ensemble(leg, {}, {"title"}, {}); }).find("a number of the experiment"),
+            std::string::npos);
+  const Ensemble ensemble(leg, {}, {"seed"}, {"air_used_kg"});
+  std::vector<double> room(1);
+  EXPECT_THROW((void)ensemble.run(std::vector<double>{1, 2}, room), std::invalid_argument);
+}
+
+// Whether a muscle took air is a remark on every run, also if no channel of the figures shows it.
+TEST(Ensemble, SeesThatNoMuscleTookAir) {
+  Ensembles ensembles({"duration_s"});
+  const std::vector<std::string> shut = {"valve.inlet.flow.area=0 m2"};
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(ensembles.run_once(leg, shut).no_air) << i;
+    EXPECT_FALSE(ensembles.run_once(leg, {"valve.inlet.flow.area=9e-7 m2"}).no_air) << i;
+  }
+}
+
+// Each figure of a summary, computed from the topics that it needs alone.
+TEST(Selection, EveryFigureNeedsOnlyItsTopics) {
+  std::mt19937 random(9);
+  for (const char* file : {"leg-in-air.toml", "walk-two-legs.toml", "walk-with-hoses.toml",
+                           "walk-with-regulators.toml"}) {
+    const std::string path = experiments + file;
+    const config::Node root = config::compose(path, {"sequence.repeat=1"});
+    const experiment::Experiment e = buildable(root, path);
+    const analysis::Machine machine = analysis::read_machine(root);
+    const signals::Table whole = run(e).table;
+    const analysis::Summary all = analysis::summarize(whole, machine);
+    for (const analysis::Entry& entry : all.entries()) {
+      if (random() % 12 != 0) continue;
+      const analysis::Selection selection({entry.key}, whole, machine);
+      const signals::Table own = run(e, {.topics = &selection.topics()}).table;
+      const auto found = selection.figures(own, machine);
+      ASSERT_TRUE(found) << file << " " << entry.key;
+      ASSERT_TRUE(found->find(entry.key)) << file << " " << entry.key;
+      EXPECT_EQ(*found->find(entry.key), entry.value) << file << " " << entry.key;
+    }
+  }
+}
+
+// A run whose figures need topics that were not needed before is not summarised by less.
+TEST(Selection, SaysThatItNeedsOtherTopics) {
+  const config::Node root = config::compose(leg, {"sequence.repeat=1"});
+  const analysis::Machine machine = analysis::read_machine(root);
+  const signals::Table whole = run(buildable(root, leg)).table;
+  const signals::Table nothing;
+  const analysis::Selection selection({"joints.hip.tracking_rms_rad"}, nothing, machine);
+  EXPECT_FALSE(selection.figures(whole, machine));
+}
+
+}  // namespace
+}  // namespace sinew::run::ensemble_test

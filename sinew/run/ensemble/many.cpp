@@ -1,0 +1,165 @@
+#include "sinew/run/ensemble/many.h"
+
+#include <algorithm>
+#include <exception>
+
+#include <fmt/format.h>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/run/simulation/lanes.h"
+
+namespace sinew::run {
+namespace {
+
+// Returns the first problem, as one line of a table.
+std::string first_problem(const config::Error& e) {
+  const std::size_t more = e.problems().size() - 1;
+  return config::to_text(e.problems().front()) +
+         (more > 0 ? fmt::format(" (and {} more)", more) : "");
+}
+
+// Returns the result of work(), or its refusal.
+template <class Work>
+RunResult refusing(const Work& work) {
+  RunResult out;
+  try {
+    return work();
+  } catch (const config::Error& e) {
+    out.status = "refused: " + first_problem(e);
+  } catch (const std::exception& e) {
+    out.status = std::string("refused: ") + e.what();
+  }
+  return out;
+}
+
+RunResult run_alone(BegunRun begun) {
+  const Outcome outcome =
+      run(begun.member->experiment,
+          {.topics = begun.member->selection ? &begun.member->selection->topics() : nullptr});
+  return begun.ensemble->result(std::move(begun.member), outcome);
+}
+
+}  // namespace
+
+void run_many(const Many& many) {
+  struct Going {
+    std::size_t number;
+    BegunRun run;
+  };
+  std::vector<Going> going;
+  const auto find = [&](const experiment::Experiment& e) {
+    return std::ranges::find_if(going,
+                                [&](const Going& g) { return &g.run.member->experiment == &e; });
+  };
+  const auto next = [&]() -> const experiment::Experiment* {
+    while (const std::optional<std::size_t> number = many.next()) {
+      BegunRun begun;
+      RunResult refused = refusing([&] {
+        begun = many.begin(*number);
+        return RunResult{};
+      });
+      if (begun.member)
+        return &going.emplace_back(Going{*number, std::move(begun)}).run.member->experiment;
+      many.done(*number, std::move(refused));
+    }
+    return nullptr;
+  };
+  const auto topics = [&](const experiment::Experiment& e) -> const signals::TopicNames* {
+    const auto& selection = find(e)->run.member->selection;
+    return selection ? &selection->topics() : nullptr;
+  };
+  const auto done = [&](const experiment::Experiment& e, const Outcome& outcome,
+                        const std::exception_ptr& thrown) {
+    const auto at = find(e);
+    Going ended = std::move(*at);
+    going.erase(at);
+    many.done(ended.number, refusing([&] {
+                if (thrown) std::rethrow_exception(thrown);
+                return ended.run.ensemble->result(std::move(ended.run.member), outcome);
+              }));
+  };
+  run_in_lanes({.next = next, .done = done, .most = many.lanes, .topics = topics});
+}
+
+// The settings of a run: those with numbers, which may differ within an ensemble, and the others.
+struct Ensembles::Split {
+  std::vector<std::string> fixed, keys, values;
+
+  // Moves the numbers for which `moves` holds to the fixed settings.
+  template <class Moves>
+  void fix(const Moves& moves) {
+    for (std::size_t i = keys.size(); i-- > 0;) {
+      if (!moves(keys[i])) continue;
+      fixed.push_back(keys[i] + "=" + values[i]);
+      keys.erase(keys.begin() + static_cast<std::ptrdiff_t>(i));
+      values.erase(values.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+};
+
+namespace {
+
+// Returns whether a value begins as a number does.
+bool looks_like_number(std::string_view value) {
+  return value.find_first_of("0123456789") == value.find_first_not_of("+-. ") &&
+         value.find_first_of("0123456789") != value.npos;
+}
+
+}  // namespace
+
+// Returns the ensemble of an experiment with these settings. Keys that turn out to be
+// words become fixed.
+std::shared_ptr<const Ensemble> Ensembles::ensemble(const std::string& experiment, Split& split) {
+  constexpr std::size_t most = 100;  // kept at a time: words as values make one for each run
+  for (;;) {
+    std::vector<std::string> name{experiment};
+    {
+      const std::lock_guard lock(mutex_);
+      split.fix([&](const std::string& key) { return fixed_.contains({experiment, key}); });
+      name.insert(name.end(), split.fixed.begin(), split.fixed.end());
+      name.insert(name.end(), split.keys.begin(), split.keys.end());
+      if (const auto found = ensembles_.find(name); found != ensembles_.end()) return found->second;
+    }
+    auto made = std::make_shared<const Ensemble>(files_, experiment, split.fixed, split.keys,
+                                                 split.values, figures_, allow_unreachable_);
+    const std::vector<std::string> unknown = made->unknown();
+    const std::lock_guard lock(mutex_);
+    for (const std::string& key : unknown) fixed_.insert({experiment, key});
+    if (!unknown.empty()) continue;
+    if (ensembles_.size() >= most) ensembles_.clear();
+    return ensembles_.try_emplace(std::move(name), std::move(made)).first->second;
+  }
+}
+
+BegunRun Ensembles::begin(const std::string& experiment, const std::vector<std::string>& sets) {
+  Split split;
+  for (const std::string& set : sets) {
+    const std::size_t equals = std::min(set.find('='), set.size());
+    const std::string key = set.substr(0, equals),
+                      value = set.substr(std::min(equals + 1, set.size()));
+    // A later setting overrides earlier ones of the same key, and of keys within its table.
+    const bool number = looks_like_number(value);
+    if (number) {
+      split.fix([&](const std::string& other) { return other == key; });
+      split.keys.push_back(key);
+      split.values.push_back(value);
+    } else {
+      split.fix([&](const std::string& other) { return other.starts_with(key); });
+      split.fixed.push_back(set);
+    }
+  }
+  std::shared_ptr<const Ensemble> its = ensemble(experiment, split);
+  std::unique_ptr<Ensemble::Member> member = its->member(split.values);
+  return {std::move(its), std::move(member)};
+}
+
+RunResult Ensembles::run_once(const std::string& experiment, const std::vector<std::string>& sets) {
+  return refusing([&] { return run_alone(begin(experiment, sets)); });
+}
+
+RunResult run_once(const std::string& experiment, const std::vector<std::string>& sets,
+                   bool allow_unreachable) {
+  return Ensembles({}, allow_unreachable).run_once(experiment, sets);
+}
+
+}  // namespace sinew::run
