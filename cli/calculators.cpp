@@ -17,7 +17,6 @@
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/operating_point.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/air.h"

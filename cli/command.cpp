@@ -21,8 +21,7 @@ constexpr char before_choice = '\x1f';
 // Returns a complaint in the form that all messages have; the option's name is put before it.
 std::string complaint(const std::string& found, const std::string& expected,
                       const std::string& try_this = "") {
-  return fmt::format("found {}; expected {}{}", found, expected,
-                     try_this.empty() ? "" : "; try " + try_this);
+  return units::to_text({found, expected, try_this});
 }
 
 // Reads a number of which nothing is left over; a plus may precede it.

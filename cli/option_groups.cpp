@@ -1,7 +1,5 @@
 #include "cli/option_groups.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
 
@@ -12,10 +10,8 @@ namespace sinew::cli {
 
 void add_units(CLI::App& sub, std::string& units, const std::string& of) {
   const auto wrong = [](const std::string& text) {
-    const units::ShownUnitsReading read = units::read_shown_units(text);
-    return read.ok() ? std::string()
-                     : fmt::format("found {}; expected {}; try {}", read.found, read.expected,
-                                   read.try_this);
+    const auto m = units::read_shown_units(text).mistake;
+    return m ? units::to_text(*m) : std::string();
   };
   sub.add_option("--units", units,
                  "UNITS: si, thesis, metric, or with changes (metric,length=cm): units of " + of)

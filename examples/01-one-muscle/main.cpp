@@ -8,7 +8,7 @@
 
 #include "sinew/actuator/operating_point.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
+#include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/valve_flow.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
+#include "sinew/config/setting.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/tune/sweep.h"
 

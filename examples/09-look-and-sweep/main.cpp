@@ -11,7 +11,7 @@
 #include "sinew/actuator/operating_point.h"
 #include "sinew/analysis/summary.h"
 #include "sinew/config/compose.h"
-#include "sinew/config/quantity.h"
+#include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"

@@ -1,7 +1,6 @@
 #include "fmu/machine/machine.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -12,6 +11,7 @@
 #include "sinew/config/node.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/run/setup/buildable.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::fmu {
 
@@ -44,7 +44,7 @@ Number number_of_key(const experiment::Experiment& e, const config::Node& in_si,
   }
   Number out{.unit = origin->unit, .source = origin->source};
   if (node->kind == config::Node::Kind::text)  // "0.23 N m s/rad"
-    std::from_chars(node->text.data(), node->text.data() + node->text.size(), out.value);
+    out.value = units::split_number(node->text).number;
   else if (node->is_number())
     out.value =
         node->kind == config::Node::Kind::integer ? static_cast<double>(node->integer) : node->real;

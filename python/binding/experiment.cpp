@@ -6,7 +6,7 @@
 #include "python/binding/values.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/node.h"
-#include "sinew/config/quantity.h"
+#include "sinew/config/setting.h"
 #include "sinew/config/shown_units.h"
 #include "sinew/config/utf8.h"
 #include "sinew/control/gait/change.h"
@@ -14,6 +14,7 @@
 #include "sinew/files/values.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/signals/tick.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::python {
 
@@ -33,9 +34,9 @@ std::string text_of(const std::string& key, const py::handle& value,
   const config::Origin* origin = config::find_origin(origins, key);
   const auto number = py::reinterpret_borrow<py::object>(value);
   if (origin && !origin->unit.empty())
-    return config::format_quantity(py::float_(number).cast<double>(), origin->unit);
+    return units::format_quantity(py::float_(number).cast<double>(), origin->unit);
   if (PyIndex_Check(value.ptr()) != 0) return py::str(number).cast<std::string>();
-  return config::format_number(py::float_(number).cast<double>());
+  return units::format_number(py::float_(number).cast<double>());
 }
 
 ExperimentPointer read(const std::string& path, std::vector<std::string> sets,
@@ -94,7 +95,7 @@ std::shared_ptr<HeldExperiment> with_seed(const HeldExperiment& of, int seed) {
 }
 
 double converted(double value, const std::string& unit, const std::string& display) try {
-  return config::convert(value, unit, display);
+  return units::convert(value, unit, display);
 } catch (const std::exception& e) {
   throw std::invalid_argument(fmt::format("convert: {}; expected units of one kind", e.what()));
 }

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include "sinew/config/quantity.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/recording/stated.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::python {
 
@@ -30,8 +30,8 @@ std::string quantity_text(const char* name, const py::handle& value, std::string
   if (!is_plain_number(value))
     refuse(name, value, fmt::format("a number [{}], or text with a unit", unit));
   const double number = py::float_(py::reinterpret_borrow<py::object>(value)).cast<double>();
-  if (unit.empty()) return config::format_number(number) + " SI";
-  return unit == "1" ? config::format_number(number) : config::format_quantity(number, unit);
+  if (unit.empty()) return units::format_number(number) + " SI";
+  return unit == "1" ? units::format_number(number) : units::format_quantity(number, unit);
 }
 
 }  // namespace

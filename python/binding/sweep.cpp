@@ -9,12 +9,12 @@
 #include <optional>
 
 #include "python/binding/numbers.h"
-#include "sinew/config/quantity.h"
 #include "sinew/host/side_by_side.h"
 #include "sinew/tune/optimizer/optimize.h"
 #include "sinew/tune/optimizer/tuned_text.h"
 #include "sinew/tune/study.h"
 #include "sinew/tune/table.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::python {
 
@@ -50,7 +50,7 @@ std::string axis_of(const std::string& key, const py::handle& values, const Held
     throw std::invalid_argument(fmt::format("{}: found no values; expected one at least", key));
   std::string text;
   for (py::ssize_t i = 0; i < all.size(); ++i)
-    text += (i > 0 ? "," : "") + config::format_number(all.data()[i]);
+    text += (i > 0 ? "," : "") + units::format_number(all.data()[i]);
   const config::Origin* origin = config::find_origin(e.read.origins, key);
   const bool bare = !origin || origin->unit.empty() || origin->unit == "1";
   return key + "=" + text + (bare ? "" : " " + origin->unit);

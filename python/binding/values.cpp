@@ -1,9 +1,8 @@
 #include "python/binding/values.h"
 
-#include <charconv>
-
 #include "sinew/config/node.h"
 #include "sinew/files/values.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::python {
 
@@ -18,10 +17,8 @@ py::object value_of(const config::Node& node, bool quantity) {
       return out;
     }
     case Kind::text: {
-      double number = 0;
-      const char* end = node.text.data() + node.text.size();
-      if (quantity && std::from_chars(node.text.data(), end, number).ec == std::errc())
-        return py::float_(number);
+      const units::NumberAndUnit read = units::split_number(node.text);
+      if (quantity && read.error == std::errc()) return py::float_(read.number);
       return py::str(node.text);
     }
     case Kind::integer:

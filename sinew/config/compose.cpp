@@ -8,7 +8,8 @@
 
 #include "sinew/config/changes.h"
 #include "sinew/config/gains.h"
-#include "sinew/config/quantity.h"
+#include "sinew/units/letters.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::config {
 
@@ -291,7 +292,7 @@ std::string_view tables_kind(const Node& root) {
 
 void apply_set(Node& root, std::string_view set) {
   const std::size_t equals = set.find('=');
-  const std::string key(trimmed(set.substr(0, equals)));
+  const std::string key(units::trimmed(set.substr(0, equals)));
   const bool empty_segment =
       key.empty() || key.front() == '.' || key.back() == '.' || key.find("..") != key.npos;
   if (equals == set.npos || empty_segment) {
@@ -303,7 +304,7 @@ void apply_set(Node& root, std::string_view set) {
   for (std::size_t dot; (dot = rest.find('.')) != rest.npos; rest.remove_prefix(dot + 1)) {
     table = &set_step(*table, rest.substr(0, dot), key);
   }
-  const std::string_view value = trimmed(set.substr(equals + 1));
+  const std::string_view value = units::trimmed(set.substr(equals + 1));
   if (rest.ends_with(']')) return set_element(*table, rest, value, key);
   table->put(set_node(rest, value));
 }
@@ -316,7 +317,7 @@ Node Composer::compose(const std::string& path, const std::vector<std::string>& 
   // Another robot must be loaded before keys in its tables can be set.
   std::vector<std::string> files = {path}, others;
   for (const std::string& set : sets)
-    (trimmed(set.substr(0, set.find('='))) == "robot" ? files : others).push_back(set);
+    (units::trimmed(set.substr(0, set.find('='))) == "robot" ? files : others).push_back(set);
   Node root = read(path, std::move(files));
   for (const std::string& set : others) apply_set(root, set);
   return root;

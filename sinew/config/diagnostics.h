@@ -9,7 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/units/letters.h"
+#include "sinew/units/mistake.h"
+
 namespace sinew::config {
+
+using units::closest, units::in_quotes;
 
 // Place in a file. line = 0: there is no line (a missing file, "--set").
 struct Location {
@@ -50,10 +55,7 @@ class Error : public std::exception {
 // Throws Error with one problem.
 [[noreturn]] void fail(Location where, std::string key, std::string found, std::string expected,
                        std::string try_this = "");
-
-// Returns the candidate most similar to `word`; empty if no candidate is close enough for a typing
-// error.
-std::string_view closest(std::string_view word, const std::vector<std::string_view>& candidates);
+[[noreturn]] void fail(Location where, std::string key, units::Mistake mistake);
 
 // Returns the result of closest() in quotes, for Problem::try_this.
 std::string closest_in_quotes(std::string_view word,
@@ -72,9 +74,6 @@ std::string either(const std::vector<std::string_view>& words);
 
 // Returns "a, b, c": at most `most` of the words, then how many more there are.
 std::string listed(const std::vector<std::string>& words, std::size_t most);
-
-// Returns the text in double quotes, shortened if it is too long for a message.
-std::string in_quotes(std::string_view text);
 
 // Lookup of a list's item by name; a single item needs no name.
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "sinew/config/problems.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/rows.h"
 #include "sinew/config/text_file.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::config {
 
@@ -39,7 +39,7 @@ bool parse_row(std::string_view text, GainRow& row, Problems& problems) {
 // Returns "0.035 %/count" with its place, as in a robot's file.
 Node gain(std::string_view key, double value, std::string_view unit, const Location& where) {
   Node node = make_table(key, where);
-  node.put(make_text("value", fmt::format("{} {}", format_number(value), unit), where));
+  node.put(make_text("value", fmt::format("{} {}", units::format_number(value), unit), where));
   node.put(make_text("source", "gain.dat, B.5", where));
   return node;
 }

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <utility>
 
-#include "sinew/config/quantity.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::config {
 
@@ -123,7 +123,7 @@ std::string written(const Node& node) {
     case Node::Kind::integer:
       return std::to_string(node.integer);
     case Node::Kind::real:
-      return format_number(node.real);
+      return units::format_number(node.real);
     case Node::Kind::flag:
       return node.flag ? "true" : "false";
     default:

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/units/field.h"
+#include "sinew/units/quantity.h"
 #include "sinew/units/ranges.h"
 
 namespace sinew::config {
@@ -22,7 +22,7 @@ namespace {
 
 // Returns a default as it would be written. A default that is not finite is "not set".
 std::string default_text(double value, std::string_view unit) {
-  return std::isfinite(value) ? format_quantity(value, unit) : "not set";
+  return std::isfinite(value) ? units::format_quantity(value, unit) : "not set";
 }
 
 std::string joined(const std::vector<double>& values, std::string_view unit) {
@@ -34,7 +34,7 @@ std::string joined(const std::vector<double>& values, std::string_view unit) {
 // Returns the description of a number with the field's limits: "m (length), at least 0 m",
 // "a whole number, 1 to 8".
 std::string number_text(const std::string& what, const units::Field& field) {
-  const std::string range = range_text(field.min, field.max, field.unit);
+  const std::string range = units::range_text(field.min, field.max, field.unit);
   return range.empty() ? what : what + ", " + range;
 }
 
@@ -54,15 +54,15 @@ std::string with_reason(std::string text, std::string_view why) {
 std::string out_of_bounds(const units::Field& field, double value) {
   if (units::is_within(field, value)) return {};
   if (!(value >= field.min && value <= field.max)) {
-    return with_reason(range_text(field.min, field.max, field.unit), field.why);
+    return with_reason(units::range_text(field.min, field.max, field.unit), field.why);
   }
   if (value != 0 && std::abs(value) < field.least) {
-    const std::string least = format_quantity(field.least, field.unit);
+    const std::string least = units::format_quantity(field.least, field.unit);
     return with_reason("0, or at least " + least, field.why);
   }
   const units::Range& range = units::range_of(field.unit);
   const double end = std::copysign(range.most, value);
-  const std::string text = format_quantity(end, field.unit);
+  const std::string text = units::format_quantity(end, field.unit);
   return with_reason((value > 0 ? "at most " : "at least ") + text, range.why);
 }
 
@@ -86,7 +86,7 @@ Reader::Reader(const Node& root, ReaderOptions options)
 
 void Reader::number(const Field& field, double& value) {
   auto entry = open(field, default_text(value, field.unit), field.unit,
-                    number_text(describe_unit(field.unit), field));
+                    number_text(units::describe_unit(field.unit), field));
   if (!entry) return;
   const auto si = si_of(*entry->value, field.unit, entry->origin.path);
   if (si && in_bounds(field, *si, *entry->value, entry->origin.path)) {
@@ -99,7 +99,7 @@ void Reader::number(const Field& field, double& value) {
 
 void Reader::numbers(const Field& field, std::vector<double>& values) {
   auto entry = open(field, joined(values, field.unit), field.unit,
-                    "a list, each value " + number_text(describe_unit(field.unit), field));
+                    "a list, each value " + number_text(units::describe_unit(field.unit), field));
   if (!entry) return;
   if (expect_kind(*entry->value, Node::Kind::array, entry->origin.path)) {
     values.clear();
@@ -113,15 +113,15 @@ void Reader::numbers(const Field& field, std::vector<double>& values) {
 
 void Reader::polynomial(const Field& field, std::vector<double>& coefficients,
                         std::string_view per) {
-  auto entry =
-      open(field, "", field.unit,
-           fmt::format("a list of coefficients, the first in {}", describe_unit(field.unit)));
+  auto entry = open(
+      field, "", field.unit,
+      fmt::format("a list of coefficients, the first in {}", units::describe_unit(field.unit)));
   if (!entry) return;
   if (expect_kind(*entry->value, Node::Kind::array, entry->origin.path)) {
     coefficients.clear();
     for (const Node& item : entry->value->children) {
       const int power = static_cast<int>(coefficients.size());
-      const std::string unit = coefficient_unit(field.unit, per, power);
+      const std::string unit = units::coefficient_unit(field.unit, per, power);
       const auto si = si_of(item, unit, entry->origin.path);
       const bool good = si && in_bounds({.unit = unit}, *si, item, entry->origin.path);
       coefficients.push_back(good ? *si : 0);
@@ -227,22 +227,23 @@ bool Reader::expect_kind(const Node& node, Node::Kind kind, const std::string& p
 
 std::optional<double> Reader::si_of(const Node& node, std::string_view unit,
                                     const std::string& path) {
-  std::optional<Mistake> mistake;
+  std::optional<units::Mistake> mistake;
   if (node.kind == Node::Kind::text) {
-    const Parsed parsed = parse_quantity(node.text, unit, options_.atmosphere, node.replaced);
+    const units::Parsed parsed =
+        units::parse_quantity(node.text, unit, options_.atmosphere, node.replaced);
     if (!parsed.mistake) return parsed.si;
     mistake = parsed.mistake;
   } else if (node.is_number()) {
     const double value = node.kind == Node::Kind::real ? node.real : double(node.integer);
     if (!std::isfinite(value)) {
-      mistake = Mistake{written(node), describe_finite(unit), ""};
+      mistake = units::Mistake{written(node), units::describe_finite(unit), ""};
     } else if (unit == "1") {
       return value;
     } else {
-      mistake = missing_unit(written(node), unit, node.replaced);
+      mistake = units::missing_unit(written(node), unit, node.replaced);
     }
   } else {
-    mistake = Mistake{shown(node), describe_unit(unit), ""};
+    mistake = units::Mistake{shown(node), units::describe_unit(unit), ""};
   }
   add_problem(node, path, mistake->found, mistake->expected, mistake->try_this);
   return std::nullopt;
@@ -254,7 +255,7 @@ bool Reader::in_bounds(const Field& field, double value, const Node& node,
   if (expected.empty()) return true;
   std::string found = shown(node);
   const std::string unit(field.unit.empty() ? "1" : field.unit);
-  const std::string si = format_quantity(value, unit, unit);
+  const std::string si = units::format_quantity(value, unit, unit);
   if (written(node) != si) found += ", which is " + si;
   add_problem(node, path, std::move(found), std::move(expected));
   return false;
@@ -490,7 +491,8 @@ void Reader::read_range(const Field& field, Entry& entry, double value) {
   std::array<double, 2> range{};
   for (std::size_t i = 0; i < 2 && ends.size() == 2; ++i) {
     // A table's range applies only to quantities with its unit.
-    const Parsed quiet = parse_quantity(written(ends[i]), field.unit, options_.atmosphere);
+    const units::Parsed quiet =
+        units::parse_quantity(written(ends[i]), field.unit, options_.atmosphere);
     if (quiet.mistake && !entry.own_range) return;
     const auto end = si_of(ends[i], field.unit, entry.origin.path + ".range");
     if (!end) return;
@@ -511,9 +513,9 @@ void Reader::read_range(const Field& field, Entry& entry, double value) {
 
 void Reader::check_uncertainty(const Field& field, const Entry& entry) {
   const std::string& text = entry.origin.uncertainty;
-  if (text.empty() || !parse_quantity(text, "1").mistake) return;  // a share: "5 %"
-  const std::string_view unit = difference_unit(field.unit);
-  if (const auto mistake = parse_quantity(text, unit).mistake) {
+  if (text.empty() || !units::parse_quantity(text, "1").mistake) return;  // a share: "5 %"
+  const std::string_view unit = units::difference_unit(field.unit);
+  if (const auto mistake = units::parse_quantity(text, unit).mistake) {
     add_problem(*entry.value, entry.origin.path + ".uncertainty", mistake->found,
                 mistake->expected + ", or %", mistake->try_this);
   }

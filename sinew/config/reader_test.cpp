@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "sinew/config/quantity.h"
 #include "sinew/units/literals.h"
+#include "sinew/units/quantity.h"
 #include "sinew/units/ranges.h"
 
 namespace sinew::config::reader_test {
@@ -239,7 +239,8 @@ TEST(Reader, TheReasonOfARangeIsReported) {
 // A unit without a row would have the widest range.
 TEST(Reader, EveryRangeIsOfAUnit) {
   for (const units::Range& range : units::ranges) {
-    EXPECT_FALSE(parse_quantity("1 " + std::string(range.unit), range.unit).mistake) << range.unit;
+    EXPECT_FALSE(units::parse_quantity("1 " + std::string(range.unit), range.unit).mistake)
+        << range.unit;
     EXPECT_GT(range.most, 0) << range.unit;
     EXPECT_FALSE(range.why.empty()) << range.unit;
   }

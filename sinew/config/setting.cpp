@@ -1,21 +1,30 @@
 #include "sinew/config/setting.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
+#include "sinew/units/quantity.h"
 #include "sinew/units/unit.h"
 
 namespace sinew::config {
 
 namespace {
 
+std::vector<std::string_view> split(std::string_view text, char at) {
+  std::vector<std::string_view> parts;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(at, start), text.size());
+    parts.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  return parts;
+}
+
 std::string describe_range(const Range& range, std::string_view unit) {
-  const std::string low = format_quantity(range.low, unit, unit);
-  const std::string high = format_quantity(range.high, unit, unit);
+  const std::string low = units::format_quantity(range.low, unit, unit);
+  const std::string high = units::format_quantity(range.high, unit, unit);
   std::string out = range.above ? "more than " + low : low;
   if (range.low == -units::unbounded)
     out = "at most " + high;
@@ -30,7 +39,7 @@ void refuse_outside(std::string_view name, const std::string& text, double si,
                     std::string_view unit, const Range& range) {
   if ((range.above ? si > range.low : si >= range.low) && si <= range.high) return;
   std::string found = text;
-  const std::string plain = format_quantity(si, unit, unit);
+  const std::string plain = units::format_quantity(si, unit, unit);
   if (text != in_quotes(plain) && text != plain) found += ", which is " + plain;
   fail({std::string(name), 0, 0}, "", found, describe_range(range, unit));
 }
@@ -39,44 +48,33 @@ void refuse_outside(std::string_view name, const std::string& text, double si,
 
 double quantity_setting(std::string_view name, std::string_view text, std::string_view unit,
                         double atmosphere, const Range& range) {
-  const Parsed parsed = parse_quantity(text, unit, atmosphere);
-  if (parsed.mistake) {
-    const Mistake& m = *parsed.mistake;
-    fail({std::string(name), 0, 0}, "", m.found, m.expected, m.try_this);
-  }
+  const units::Parsed parsed = units::parse_quantity(text, unit, atmosphere);
+  if (parsed.mistake) fail({std::string(name), 0, 0}, "", *parsed.mistake);
   refuse_outside(name, in_quotes(text), parsed.si, unit, range);
   return parsed.si;
 }
 
+double quantity(std::string_view text, std::string_view unit, std::string_view key,
+                double atmosphere) {
+  const units::Parsed parsed = units::parse_quantity(text, unit, atmosphere);
+  if (parsed.mistake) fail({"text", 0, 0}, std::string(key), *parsed.mistake);
+  return parsed.si;
+}
+
+std::string quantity_like(const Origins& origins, std::string_view path, double si,
+                          std::string_view unit, std::string_view otherwise, double room) {
+  const Origin* origin = find_origin(origins, path);
+  const bool is_given = origin && !origin->is_default;
+  return units::quantity_like(is_given ? std::string_view(origin->text) : std::string_view{}, si,
+                              unit, otherwise, room);
+}
+
 double number_setting(std::string_view name, double value, const Range& range) {
-  refuse_outside(name, format_number(value), value, "1", range);
+  refuse_outside(name, units::format_number(value), value, "1", range);
   return value;
 }
 
-std::vector<std::string> at_commas(const std::string& text) {
-  std::vector<std::string> out;
-  std::size_t from = 0;
-  while (from <= text.size() && !text.empty()) {
-    const std::size_t to = std::min(text.find(',', from), text.size());
-    const std::string piece = text.substr(from, to - from);
-    const std::size_t first = piece.find_first_not_of(' ');
-    out.push_back(first == piece.npos ? "" : piece.substr(first));
-    from = to + 1;
-  }
-  return out;
-}
-
 namespace {
-
-std::vector<std::string_view> split(std::string_view text, char at) {
-  std::vector<std::string_view> parts;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find(at, start), text.size());
-    parts.push_back(text.substr(start, end - start));
-    start = end + 1;
-  }
-  return parts;
-}
 
 // Returns the text of a difference of pressures, which has no reference.
 std::string without_reference(std::string_view text) {
@@ -87,22 +85,12 @@ std::string without_reference(std::string_view text) {
 // Returns "1 in:2 in:0.1 in" in the unit that was written, or else in a usual one.
 std::string range_example(std::string_view unit, std::string_view written) {
   if (unit == "1") return "\"0:1:0.1\"";
-  std::string usual = written_unit(written);
-  if (parse_quantity("1 " + usual, unit).mistake) usual = usual_units(unit).front();
+  std::string usual = units::written_unit(written);
+  if (units::parse_quantity("1 " + usual, unit).mistake) usual = units::usual_units(unit).front();
   return in_quotes("1 " + usual + ":2 " + usual + ":0.1 " + without_reference(usual));
 }
 
 }  // namespace
-
-std::string written_unit(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(" +"), text.size()));
-  double number = 0;
-  const char* last = text.data() + text.size();
-  std::string unit(std::from_chars(text.data(), last, number).ptr, last);
-  unit.erase(unit.find_last_not_of(' ') + 1);
-  unit.erase(0, std::min(unit.find_first_not_of(' '), unit.size()));
-  return unit.empty() ? "1" : unit;
-}
 
 QuantityRange range_setting(std::string_view name, std::string_view text, std::string_view unit,
                             double atmosphere, const Range& range) {
@@ -114,10 +102,10 @@ QuantityRange range_setting(std::string_view name, std::string_view text, std::s
   if (parts.size() != 1 && parts.size() != 3)
     refuse(text, "a quantity, or from:to:step", range_example(unit, parts[0]));
   QuantityRange out{{quantity_setting(name, parts[0], unit, atmosphere, range)},
-                    written_unit(parts[0])};
+                    units::written_unit(parts[0])};
   if (parts.size() == 1) return out;
 
-  const std::string_view step_unit = difference_unit(unit);
+  const std::string_view step_unit = units::difference_unit(unit);
   std::string step_text(parts[2]);
   if (step_unit == "Pa diff" && without_reference(step_text) != step_text)
     refuse(step_text, "a step, which is a difference of two pressures",
@@ -141,6 +129,14 @@ std::vector<double> list_setting(std::string_view name, std::string_view text,
   std::vector<double> out;
   for (const std::string_view part : split(text, ','))
     out.push_back(quantity_setting(name, part, unit, units::atmosphere, range));
+  return out;
+}
+
+std::vector<std::string> at_commas(const std::string& text) {
+  std::vector<std::string> out;
+  if (text.empty()) return out;
+  for (const std::string_view piece : split(text, ','))
+    out.emplace_back(piece.substr(std::min(piece.find_first_not_of(' '), piece.size())));
   return out;
 }
 

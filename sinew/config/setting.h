@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/config/origin.h"
 #include "sinew/units/constants.h"
 #include "sinew/units/field.h"
 
@@ -35,6 +36,16 @@ inline constexpr Range air_volume = from_zero(1000, "room for air in a laborator
 inline constexpr Range polytropic = {1, 5.0 / 3, "from isothermal to adiabatic"};
 inline constexpr Range pulses = above_zero(1e4, "a pulse has at least a tick of 0.1 ms");
 
+// Returns a quantity without a file in SI. Throws Error, in which the text is called `key`.
+double quantity(std::string_view text, std::string_view unit, std::string_view key = "",
+                double atmosphere = units::atmosphere);
+
+// Returns a quantity for a message, in the unit of the value at that path, or in `otherwise` if it
+// is a default. Gauge pressures refer to `room` [Pa].
+std::string quantity_like(const Origins& origins, std::string_view path, double si,
+                          std::string_view unit, std::string_view otherwise,
+                          double room = units::atmosphere);
+
 // Returns the quantity in SI; gauge pressures refer to `atmosphere` [Pa]. Throws Error that begins
 // with the setting's name.
 double quantity_setting(std::string_view name, std::string_view text, std::string_view unit,
@@ -54,9 +65,6 @@ QuantityRange range_setting(std::string_view name, std::string_view text, std::s
 // Returns the quantities of "-2 in, -13 in". Throws Error as above.
 std::vector<double> list_setting(std::string_view name, std::string_view text,
                                  std::string_view unit, const Range& range = {});
-
-// Returns the unit that a valid quantity was written with: "in" of "3.4 in"; "1" for none.
-std::string written_unit(std::string_view text);
 
 // Returns the number; throws Error like quantity_setting() if it is out of range.
 double number_setting(std::string_view name, double value, const Range& range);

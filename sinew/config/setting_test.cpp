@@ -36,5 +36,26 @@ TEST(Setting, ReportsItsNameAndRange) {
   EXPECT_THROW(number_setting("count", 0, {1, 100, ""}), Error);
 }
 
+TEST(Setting, OfAMessageIsInTheUnitThatWasWritten) {
+  const Origins origins = {
+      {.path = "start.lift", .unit = "m", .text = "2 cm"},
+      {.path = "start.trolley", .unit = "m", .text = "0 m", .is_default = true}};
+  EXPECT_EQ(quantity_like(origins, "start.lift", 0.03, "m", "in"), "3 cm");
+  EXPECT_EQ(quantity_like(origins, "start.trolley", 0.0254, "m", "in"), "1 in");
+  EXPECT_EQ(quantity_like(origins, "start.other", 0.0254, "m", "in"), "1 in");
+}
+
+TEST(Quantity, OfATextIsReportedWithItsKey) {
+  EXPECT_DOUBLE_EQ(quantity("2 cm", "m"), 0.02);
+  try {
+    quantity("62 psi", "Pa abs", "key");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "text: key: found \"62 psi\", a pressure without its reference; expected Pa abs "
+              "(pressure); try \"62 psi gauge\" or \"62 psi abs\"");
+  }
+}
+
 }  // namespace
 }  // namespace sinew::config::setting_test

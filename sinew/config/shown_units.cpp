@@ -3,22 +3,23 @@
 #include <cstdlib>
 
 #include "sinew/config/node.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/user_settings.h"
+#include "sinew/units/letters.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::config {
 
 units::ShownUnits parse_shown_units(std::string_view text, const Location& where,
                                     const std::string& key, const units::ShownUnits& below) {
   units::ShownUnitsReading read = units::read_shown_units(text, below);
-  if (!read.ok()) fail(where, key, read.found, read.expected, read.try_this);
+  if (read.mistake) fail(where, key, *read.mistake);
   return std::move(read.units);
 }
 
 UnitsToShow units_to_show(const UnitsRequest& request, const units::ShownUnits& otherwise) {
   UnitsToShow out{otherwise, false};
   const auto say = [&](std::string_view text, const Location& where, const std::string& key) {
-    if (trimmed(text).empty()) return;
+    if (units::trimmed(text).empty()) return;
     out = {parse_shown_units(text, where, key, out.units), true};
   };
   const UserSettings own = user_settings();

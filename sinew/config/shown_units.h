@@ -53,8 +53,8 @@ struct PageTable {
 template <class Visitor>
 void report_wrong_units(Visitor& v, const std::string& text) {
   if (text.empty()) return;
-  const units::ShownUnitsReading read = units::read_shown_units(text);
-  if (!read.ok()) units::report_conflict(v, "units", read.found, read.expected, read.try_this);
+  if (const auto m = units::read_shown_units(text).mistake)
+    units::report_conflict(v, "units", m->found, m->expected, m->try_this);
 }
 
 // Visits the keys of [page].

@@ -7,11 +7,12 @@
 #include <tuple>
 
 #include "sinew/actuator/body.h"
-#include "sinew/config/quantity.h"
+#include "sinew/config/setting.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/control/gait/legs.h"
 #include "sinew/experiment/faults.h"
 #include "sinew/signals/tick.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::experiment {
 
@@ -229,10 +230,9 @@ void check_size(const Experiment& e, List& out) {
   }
   const double lasts = e.start.settle + e.plan.repeat * step + e.robot.low_level.vent_time;
   if (!(lasts <= longest))
-    out.push_back(
-        {"sequence", config::format_number(lasts) + " s in all", "at most 1000000 s", ""});
+    out.push_back({"sequence", units::format_number(lasts) + " s in all", "at most 1000000 s", ""});
   else if (lasts > most * e.log.period)
-    out.push_back({"log.period", config::format_number(lasts / e.log.period) + " samples",
+    out.push_back({"log.period", units::format_number(lasts / e.log.period) + " samples",
                    "at most 100000000", "a longer period"});
 }
 
@@ -447,7 +447,7 @@ void check_samples(const Experiment& e, Findings& out) {
   constexpr double most = 2'000'000;  // samples
   const double period = e.stand->sweep.step > 0 ? e.stand->duration : e.log.period;
   if (e.stand->duration > most * period)
-    out.add("log.period", config::format_number(e.stand->duration / period) + " samples",
+    out.add("log.period", units::format_number(e.stand->duration / period) + " samples",
             "at most 2000000", "a longer period");
 }
 
@@ -495,7 +495,7 @@ void check_pulses(const Stand::Drive& d, Findings& out) {
     if (!begins || !ends)
       out.add("drive.pulses[" + std::to_string(i) + "]",
               std::string("a second pulse of the ") + (p.exhaust ? "exhaust" : "inlet") +
-                  " in one drive.period, " + config::format_number(d.period) + " s",
+                  " in one drive.period, " + units::format_number(d.period) + " s",
               "at most one that begins and one that ends", "a shorter drive.period");
   }
 }

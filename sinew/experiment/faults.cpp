@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/robot/boards.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::experiment {
 
@@ -161,7 +161,7 @@ bool same_part(const Fault& a, const Fault& b) {
 }
 
 void check_overlaps(std::span<const Fault> faults, List& out) {
-  const auto seconds = [](double t) { return config::format_number(t) + " s"; };
+  const auto seconds = [](double t) { return units::format_number(t) + " s"; };
   for (std::size_t i = 0; i < faults.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       const Fault &a = faults[k], &b = faults[i];
@@ -197,12 +197,12 @@ void check_faults(std::span<const Fault> faults, const std::vector<FaultPart>& p
     } else if (!can_have(part->kind, f.what)) {
       out.push_back(impossible_fault(key, f, *part));
     } else if (part->kind == FaultPart::Kind::muscle && f.share > 0) {
-      out.push_back({key + ".share", config::format_number(f.share),
+      out.push_back({key + ".share", units::format_number(f.share),
                      "no share, as " + f.of + " is a muscle and has no seat",
                      "an area or a conductance"});
     } else if (part->kind == FaultPart::Kind::valve && f.area > widest_seat) {
-      out.push_back({key + ".area", config::format_quantity(f.area, "m2", "mm2"),
-                     "at most " + config::format_quantity(widest_seat, "m2", "mm2") +
+      out.push_back({key + ".area", units::format_quantity(f.area, "m2", "mm2"),
+                     "at most " + units::format_quantity(widest_seat, "m2", "mm2") +
                          ", as no seat of a valve is wider",
                      "share = \"100 %\""});
     }
@@ -249,12 +249,12 @@ std::vector<FaultsOfPart> by_part(std::span<const Fault> faults) {
 std::string to_text(const Fault& f) {
   std::vector<std::string> how;
   if (std::isfinite(f.amount))
-    how.push_back(unit_of_amount(f.what) == "count" ? config::format_number(f.amount) + " count"
-                                                    : config::format_number(100 * f.amount) + " %");
-  if (f.area > 0) how.push_back(config::format_quantity(f.area, "m2", "mm2"));
-  if (f.conductance > 0) how.push_back(config::format_quantity(f.conductance, "kg/(s Pa)"));
-  if (f.share > 0) how.push_back(config::format_number(100 * f.share) + " % of its area");
-  if (std::isfinite(f.pressure)) how.push_back(config::format_quantity(f.pressure, "Pa abs"));
+    how.push_back(unit_of_amount(f.what) == "count" ? units::format_number(f.amount) + " count"
+                                                    : units::format_number(100 * f.amount) + " %");
+  if (f.area > 0) how.push_back(units::format_quantity(f.area, "m2", "mm2"));
+  if (f.conductance > 0) how.push_back(units::format_quantity(f.conductance, "kg/(s Pa)"));
+  if (f.share > 0) how.push_back(units::format_number(100 * f.share) + " % of its area");
+  if (std::isfinite(f.pressure)) how.push_back(units::format_quantity(f.pressure, "Pa abs"));
   std::string out = f.of + " " + std::string(name_of(f.what));
   if (!how.empty()) out += fmt::format(" ({})", fmt::join(how, ", "));
   out += fmt::format(" from {:.10g} s", f.at);

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/units/quantity.h"
 #include "tests/places.h"
 
 namespace sinew::experiment::load_test {
@@ -57,7 +57,7 @@ TEST(Load, TheHintOfAMissingUnitIsThatOfTheFile) {
   int tried = 0;
   for (const config::Origin& origin : load(walk).origins) {
     if (origin.unit.empty() || origin.unit == "1") continue;  // these need no unit
-    const config::Parsed meant = config::parse_quantity(origin.text, origin.unit);
+    const units::Parsed meant = units::parse_quantity(origin.text, origin.unit);
     const std::size_t space = origin.text.find(' ');
     const bool in_list = origin.path.find('[') != origin.path.npos;
     if (meant.mistake || origin.is_default || in_list || space == origin.text.npos) continue;
@@ -68,7 +68,7 @@ TEST(Load, TheHintOfAMissingUnitIsThatOfTheFile) {
         << origin.path << ": " << said;
     const std::size_t quote = said.find("try \"") + 5;
     const std::string hint = said.substr(quote, said.find('"', quote) - quote);
-    const config::Parsed proposed = config::parse_quantity(hint, origin.unit);
+    const units::Parsed proposed = units::parse_quantity(hint, origin.unit);
     EXPECT_FALSE(proposed.mistake) << origin.path << ": " << said;
     EXPECT_EQ(proposed.si, meant.si) << origin.path << ": " << said;
     ++tried;

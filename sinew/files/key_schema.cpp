@@ -6,9 +6,9 @@
 
 #include "sinew/config/changes.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/files/key_text.h"
 #include "sinew/json/json.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::files {
 
@@ -45,7 +45,7 @@ std::string describe(const Key& key) {
   const auto add = [&](const std::string& words) {
     if (!words.empty()) out += (out.empty() ? "" : "; ") + words;
   };
-  if (!key.unit.empty()) add(config::describe_unit(key.unit));
+  if (!key.unit.empty()) add(units::describe_unit(key.unit));
   add(range_of(key));
   if (!key.why.empty()) add(key.why);
   if (!key.when.empty()) add("where " + key.when);

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::files {
 
@@ -121,7 +121,7 @@ Json to_json(const Key& key) {
   Json out{{"kind", key.kind}, {"key", key.path}, {"type", to_text(key.type)}};
   if (!key.unit.empty()) {
     out["unit"] = key.unit;
-    if (key.unit != "1") out["written"] = config::usual_units(key.unit);
+    if (key.unit != "1") out["written"] = units::usual_units(key.unit);
   }
   if (!key.per.empty()) out["per"] = key.per;
   if (std::isfinite(key.min)) out["min"] = key.min;

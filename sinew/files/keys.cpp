@@ -13,9 +13,9 @@
 #include <fmt/ranges.h>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/files/key_tables.h"
 #include "sinew/units/letters.h"
+#include "sinew/units/quantity.h"
 #include "sinew/units/ranges.h"
 
 namespace sinew::files {
@@ -46,7 +46,7 @@ KeysByPath by_path(const std::vector<Key>& keys) {
 }
 
 std::string text_of(const units::VisitedField& f, double value) {
-  return std::isfinite(value) ? config::format_quantity(value, f.field.unit) : "not set";
+  return std::isfinite(value) ? units::format_quantity(value, f.field.unit) : "not set";
 }
 
 // Returns the default of a field as it would be written.
@@ -389,9 +389,9 @@ std::vector<std::string> kinds_within(std::string_view kind) {
 
 std::string range_of(const Key& key) {
   if (key.unit.empty() && key.type != KeyType::whole) return "";
-  std::string out = config::range_text(key.min, key.max, key.unit);
+  std::string out = units::range_text(key.min, key.max, key.unit);
   if (key.least > 0) {
-    const std::string least = "0, or at least " + config::format_quantity(key.least, key.unit);
+    const std::string least = "0, or at least " + units::format_quantity(key.least, key.unit);
     out = key.min == 0 && key.max == units::unbounded ? least : out + "; " + least;
   }
   return out;

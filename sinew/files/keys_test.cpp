@@ -14,7 +14,6 @@
 #include <set>
 
 #include "sinew/config/compose.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/reader.h"
 #include "sinew/files/key_tables.h"
 #include "sinew/files/key_text.h"
@@ -23,6 +22,7 @@
 #include "sinew/robot/legs.h"
 #include "sinew/robot/robot.h"
 #include "sinew/tune/optimizer/tuning.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::files::keys_test {
 namespace {
@@ -122,7 +122,7 @@ std::map<std::string, std::string> expected_beyond(const std::string& kind, auto
     const std::optional<double> value = beyond(key);
     if (!value) continue;
     const auto [table, name] = place_of(root, key.path);
-    table->put(config::make_text(name, config::format_quantity(*value, key.unit)));
+    table->put(config::make_text(name, units::format_quantity(*value, key.unit)));
   }
   config::Reader reader(root);
   visit_tables(reader, kind);
@@ -152,7 +152,7 @@ TEST(Keys, RangesAreThoseThatTheReaderStates) {
       if (key.least > 0) {
         EXPECT_THAT(range_of(key), HasSubstr("0, or at least")) << key.path;
         ASSERT_TRUE(small.contains(key.path)) << kind << " " << key.path;
-        const std::string least = config::format_quantity(key.least, key.unit);
+        const std::string least = units::format_quantity(key.least, key.unit);
         EXPECT_THAT(small.at(key.path), StartsWith("0, or at least " + least)) << key.path;
         EXPECT_THAT(range_of(key), HasSubstr(least)) << key.path;
       }
@@ -166,7 +166,7 @@ TEST(Keys, RangesAreThoseThatTheReaderStates) {
       if (std::isfinite(key.max)) {
         EXPECT_THAT(high.at(key.path), StartsWith(range)) << key.path;
       } else {
-        const std::string most = config::format_quantity(key.most, key.unit);
+        const std::string most = units::format_quantity(key.most, key.unit);
         EXPECT_THAT(high.at(key.path), StartsWith("at most " + most)) << key.path;
       }
       ++checked;

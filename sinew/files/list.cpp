@@ -10,10 +10,10 @@
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/node.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/text_file.h"
 #include "sinew/files/shipped.h"
 #include "sinew/json/json.h"
+#include "sinew/units/letters.h"
 
 namespace sinew::files {
 
@@ -34,7 +34,7 @@ constexpr std::size_t longest_title = 100;
 // Returns the kind in `format = "sinew.robot/1"`, which precedes the first table.
 std::string_view kind_of_format(std::string_view text) {
   while (!text.empty()) {
-    const std::string_view line = config::trimmed(text.substr(0, text.find('\n')));
+    const std::string_view line = units::trimmed(text.substr(0, text.find('\n')));
     if (line.starts_with('[')) break;
     const std::size_t at = line.find("\"sinew.");
     if (line.starts_with("format") && at != line.npos) {
@@ -59,7 +59,7 @@ std::string leading_comment(std::string_view text) {
     const std::size_t end = text.find('\n');
     std::string_view line = text.substr(1, end == text.npos ? end : end - 1);
     if (line.ends_with('\r')) line.remove_suffix(1);
-    line = config::trimmed(line);
+    line = units::trimmed(line);
     if (line.empty()) break;
     out += (out.empty() ? "" : " ") + std::string(line);
     text = end == text.npos ? std::string_view() : text.substr(end + 1);

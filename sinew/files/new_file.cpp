@@ -14,7 +14,7 @@
 #include "sinew/actuator/operating_point.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
+#include "sinew/config/setting.h"
 #include "sinew/config/text_file.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"

@@ -6,7 +6,6 @@
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/node.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/reader.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
@@ -14,6 +13,7 @@
 #include "sinew/recording/mapping.fields.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/run_storage.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::files {
 
@@ -29,9 +29,9 @@ std::string si_text(const config::Node& values, const config::Origin& origin) {
 // Returns the value for display: a single number without digits caused by conversion.
 std::string rounded_text(const config::Node& values, const config::Origin& origin) {
   const std::string si = si_text(values, origin);
-  const config::Parsed parsed = config::parse_quantity(si, origin.unit.empty() ? "1" : origin.unit);
+  const units::Parsed parsed = units::parse_quantity(si, origin.unit.empty() ? "1" : origin.unit);
   return origin.unit.empty() || parsed.mistake ? si
-                                               : config::rounded_quantity(parsed.si, origin.unit);
+                                               : units::rounded_quantity(parsed.si, origin.unit);
 }
 
 // Absolute pressures are shown with the unit of pressures, as gauge if the set of units has it.
@@ -45,7 +45,7 @@ std::string shown_text(const config::Node& values, const config::Origin& origin,
   if (node->is_value_table()) node = node->find("value");
   const auto text = [&](const config::Node& number) {
     const std::string si = config::written(number);
-    const config::Parsed parsed = config::parse_quantity(si, origin.unit, room);
+    const units::Parsed parsed = units::parse_quantity(si, origin.unit, room);
     return parsed.mistake ? si : shown.text(parsed.si, held(origin.unit), 6, room);
   };
   if (node->kind != config::Node::Kind::array) return text(*node);

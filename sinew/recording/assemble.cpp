@@ -12,11 +12,11 @@
 #include <fmt/format.h>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/recording/columns.h"
 #include "sinew/recording/mapping.h"
 #include "sinew/recording/recorded.h"
 #include "sinew/recording/stamp.h"
+#include "sinew/units/quantity.h"
 #include "sinew/units/spelling.h"
 #include "sinew/units/unit.h"
 
@@ -338,7 +338,7 @@ class Matcher {
     Conversion out = by_units(f, c, unit, target);
     out.slope *= use.scale;
     if (use.offset.empty()) return out;
-    const config::Parsed added = parse_offset(use.offset, wanted(target).unit, atmosphere_);
+    const units::Parsed added = parse_offset(use.offset, wanted(target).unit, atmosphere_);
     if (added.mistake)
       problem(files_[f].file, fmt::format("{}.offset", use.name), added.mistake->found,
               added.mistake->expected, added.mistake->try_this);
@@ -356,10 +356,10 @@ class Matcher {
     const WantedColumn quantity = wanted(target);
     if (unit.empty() && column.stated) {
       problem(files_[f].file, column.name, "a stated number without a unit",
-              config::describe_unit(quantity.unit),
+              units::describe_unit(quantity.unit),
               fmt::format("a value such as \"{}={} {}\"", column.name,
-                          config::format_number(column.values.front()),
-                          config::usual_units(quantity.unit).front()));
+                          units::format_number(column.values.front()),
+                          units::usual_units(quantity.unit).front()));
       return {};
     }
     const auto found = resolver(headers_[f]).convert(c, quantity);
@@ -442,10 +442,8 @@ struct TimeConversion {
 };
 
 std::int64_t nanoseconds_of(const std::string& text, const std::string& key) {
-  const config::Parsed parsed = config::parse_quantity(text, "s");
-  if (parsed.mistake)
-    config::fail({key, 0, 0}, "", parsed.mistake->found, parsed.mistake->expected,
-                 parsed.mistake->try_this);
+  const units::Parsed parsed = units::parse_quantity(text, "s");
+  if (parsed.mistake) config::fail({key, 0, 0}, "", *parsed.mistake);
   return std::llround(nanoseconds * parsed.si);
 }
 
@@ -601,7 +599,7 @@ class Assembler {
       if (times_[f].zero != 0 && !origin_of(f))
         out_.notes.push_back(
             fmt::format("{}: time 0 of the log is {} s of the recording's clock", files_[f].file,
-                        config::format_number(static_cast<double>(times_[f].zero) / nanoseconds)));
+                        units::format_number(static_cast<double>(times_[f].zero) / nanoseconds)));
       else if (f > 0 && (origin_of(f) || origin_of(0)))
         out_.notes.push_back(fmt::format(
             "{}: no common clock with {}: both begin at time 0; a shift of one of them places it",
@@ -627,8 +625,8 @@ class Assembler {
       out_.notes.push_back(fmt::format(
           "{}: from {} to {} s, where no other file has a sample: another zone, date or clock, "
           "unless a shift of the file places it",
-          files_[f].file, config::format_number(static_cast<double>(first) / nanoseconds),
-          config::format_number(static_cast<double>(last) / nanoseconds)));
+          files_[f].file, units::format_number(static_cast<double>(first) / nanoseconds),
+          units::format_number(static_cast<double>(last) / nanoseconds)));
     }
   }
 

@@ -93,7 +93,7 @@ class ChannelNames {
   std::vector<Alias> aliases_;
 };
 
-// Returns the unit of a channel as config::parse_quantity() takes it. A log's Pa is absolute,
+// Returns the unit of a channel as units::parse_quantity() takes it. A log's Pa is absolute,
 // except in /sensor/ topics, where a test stand's transducers measure gauge pressure.
 std::string quantity_unit(const signals::Topic& topic, std::size_t field);
 

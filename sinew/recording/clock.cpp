@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
+#include "sinew/units/quantity.h"
 #include "sinew/units/spelling.h"
 
 namespace sinew::recording {
@@ -232,8 +232,8 @@ double period_of_rate(const std::string& rate) {
     if (!unit.empty() && unit.front().factor == 1)
       text = rate.substr(0, number) + " " + unit.front().unit;
   }
-  const config::Parsed frequency = config::parse_quantity(text, "Hz");
-  const config::Parsed period = config::parse_quantity(text, "s");
+  const units::Parsed frequency = units::parse_quantity(text, "Hz");
+  const units::Parsed period = units::parse_quantity(text, "s");
   const double value = !period.mistake ? period.si : frequency.mistake ? 0 : 1 / frequency.si;
   if (value > 0 && value < 1e9) return value;
   config::fail({"rate", 0, 0}, "", config::in_quotes(rate),

@@ -15,7 +15,7 @@ namespace sinew::recording {
 
 namespace {
 
-using config::trimmed;
+using units::trimmed;
 
 constexpr std::size_t most_columns = 20;  // maximum number in a message
 
@@ -164,9 +164,9 @@ std::variant<FileUnit, std::string> file_unit(const std::string& unit, const std
   std::string advice;
   for (const units::Spelling& meaning : meanings) {
     const auto parse = [&](int number) {
-      return config::parse_quantity(fmt::format("{} {}", number, meaning.unit), wanted, atmosphere);
+      return units::parse_quantity(fmt::format("{} {}", number, meaning.unit), wanted, atmosphere);
     };
-    const config::Parsed zero = parse(0), one = parse(1);
+    const units::Parsed zero = parse(0), one = parse(1);
     if (!zero.mistake)
       return FileUnit{{(one.si - zero.si) * meaning.factor, zero.si},
                       meaning.factor == 1 ? meaning.unit : ""};
@@ -188,14 +188,14 @@ FileUnit own_unit(const std::string& unit) {
   return {{meanings.front().factor, 0}, meanings.front().unit};
 }
 
-config::Parsed parse_offset(const std::string& text, std::string_view wanted, double atmosphere) {
+units::Parsed parse_offset(const std::string& text, std::string_view wanted, double atmosphere) {
   if (!units::is_unit(wanted))
-    return {0, config::Mistake{config::in_quotes(text),
-                               fmt::format("no offset: Sinew does not have the unit {}",
-                                           config::in_quotes(wanted)),
-                               "another unit for the column"}};
+    return {0, units::Mistake{config::in_quotes(text),
+                              fmt::format("no offset: Sinew does not have the unit {}",
+                                          config::in_quotes(wanted)),
+                              "another unit for the column"}};
   const auto [bare, reference] = units::unit_and_reference(wanted);
-  return config::parse_quantity(
+  return units::parse_quantity(
       text, reference.empty() ? std::string(wanted) : fmt::format("{} diff", bare), atmosphere);
 }
 
@@ -264,8 +264,8 @@ void ColumnResolver::refuse_unit(std::size_t column, const WantedColumn& wanted,
   const Heading& h = header_.columns[column];
   const std::string unit = unit_of(column);
   config::Problem problem{place_of(header_, h), wanted.name};
-  problem.expected = config::describe_unit(wanted.unit);
-  const std::string usual = config::usual_units(wanted.unit).front();
+  problem.expected = units::describe_unit(wanted.unit);
+  const std::string usual = units::usual_units(wanted.unit).front();
   if (unit.empty()) {
     problem.found = fmt::format("the column {} without a unit", config::in_quotes(h.name));
     problem.try_this = fmt::format("units.{}=\"{}\"", h.name, usual);

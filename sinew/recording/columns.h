@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "sinew/config/problems.h"
-#include "sinew/config/quantity.h"
 #include "sinew/recording/rows.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::recording {
 
@@ -96,7 +96,7 @@ std::variant<FileUnit, std::string> file_unit(const std::string& unit, const std
 
 // Parses a difference that is added to a quantity, "200 mm" or "0.1 bar diff". The result is in the
 // unit `wanted`.
-config::Parsed parse_offset(const std::string& text, std::string_view wanted, double atmosphere);
+units::Parsed parse_offset(const std::string& text, std::string_view wanted, double atmosphere);
 
 // Quantity that a column should have.
 struct WantedColumn {

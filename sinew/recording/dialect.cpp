@@ -12,18 +12,18 @@
 #include <fmt/format.h>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/utf8.h"
 #include "sinew/recording/rows.h"
 #include "sinew/recording/stamp.h"
 #include "sinew/units/letters.h"
+#include "sinew/units/quantity.h"
 #include "sinew/units/spelling.h"
 
 namespace sinew::recording {
 
 namespace {
 
-using config::trimmed;
+using units::trimmed;
 
 // --- sample of a table's first rows, with the most plausible separator ---
 
@@ -360,7 +360,7 @@ class HeaderReader {
     out.period = header.step;
     out.first = header.first;
     out.notes.push_back(fmt::format("times by Delta_X of its header: {} s from row to row",
-                                    config::format_number(header.step)));
+                                    units::format_number(header.step)));
   }
 
   // Uses a comment as header, as NumPy writes it: "# time [s], force [N]".

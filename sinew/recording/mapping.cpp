@@ -9,11 +9,11 @@
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/problems.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/reader.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/recording/mapping.fields.h"
 #include "sinew/units/each_field.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::recording {
 
@@ -41,7 +41,7 @@ void check_row(const std::vector<ColumnMapping>& rows, std::size_t i, config::Pr
     problems.add(0, 0, at + "channel", config::in_quotes(row.channel),
                  "a channel, which begins with /", "\"/" + row.channel + "\"");
   if (row.scale == 0 || !std::isfinite(row.scale))
-    problems.add(0, 0, at + "scale", config::format_number(row.scale),
+    problems.add(0, 0, at + "scale", units::format_number(row.scale),
                  "a finite number that is not 0");
   for (std::size_t k = 0; k < i; ++k) {
     if (rows[k].name == row.name)
@@ -154,7 +154,7 @@ namespace {
 // Returns a value as TOML; empty if it is the default.
 std::string text_of(const units::VisitedField& f) {
   if (f.text) return f.text->empty() ? "" : config::toml_string(*f.text);
-  if (f.number) return *f.number == 1 ? "" : config::format_number(*f.number);  // a scale
+  if (f.number) return *f.number == 1 ? "" : units::format_number(*f.number);  // a scale
   if (f.flag) return *f.flag ? "true" : "";
   std::string items;
   for (const std::string& item : *f.texts)

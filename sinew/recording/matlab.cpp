@@ -200,7 +200,7 @@ std::string readable_name(std::string_view name, const Variables& in) {
 // Returns the seconds in one unit of the clock.
 double seconds_per_unit(const std::string& unit, const std::string& file) {
   if (unit.empty()) return 1;
-  const config::Parsed one = config::parse_quantity("1 " + unit, "s");
+  const units::Parsed one = units::parse_quantity("1 " + unit, "s");
   if (!one.mistake) return one.si;
   config::fail({file, 0, 0}, "clock.unit", config::in_quotes(unit), "a unit of time", "\"ms\"");
 }

@@ -19,7 +19,6 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/problems.h"
-#include "sinew/config/quantity.h"
 #include "sinew/recording/clock.h"
 #include "sinew/recording/columns.h"
 #include "sinew/recording/grid.h"
@@ -27,6 +26,7 @@
 #include "sinew/recording/parts.h"
 #include "sinew/recording/selected_rows.h"
 #include "sinew/recording/stated.h"
+#include "sinew/units/quantity.h"
 #include "sinew/units/unit.h"
 
 namespace sinew::recording {
@@ -153,7 +153,7 @@ bool WantedColumns::find_stated(const ColumnSpec& w, std::vector<FoundColumn>& o
   for (const auto& [word, meant] : w.words)
     if (*text == word) f.constant = meant;
   if (w.words.empty()) {
-    const config::Parsed parsed = config::parse_quantity(*text, w.unit, source_.atmosphere);
+    const units::Parsed parsed = units::parse_quantity(*text, w.unit, source_.atmosphere);
     if (parsed.mistake)
       problems_.add(0, 0, setting, parsed.mistake->found, parsed.mistake->expected,
                     parsed.mistake->try_this);
@@ -168,7 +168,7 @@ bool WantedColumns::find_stated(const ColumnSpec& w, std::vector<FoundColumn>& o
 void WantedColumns::add_offset(const ColumnSpec& w, FoundColumn& f) {
   const auto given = source_.offsets.find(std::string(w.name));
   if (given == source_.offsets.end()) return;
-  const config::Parsed added = parse_offset(given->second, w.unit, source_.atmosphere);
+  const units::Parsed added = parse_offset(given->second, w.unit, source_.atmosphere);
   if (added.mistake)
     problems_.add(0, 0, fmt::format("offsets.{}", w.name), added.mistake->found,
                   added.mistake->expected, added.mistake->try_this);
@@ -363,8 +363,8 @@ class Table {
   }
 
   std::optional<double> condition(const Heading& at, const FoundColumn& f) {
-    const config::Parsed parsed =
-        config::parse_quantity(at.at_value, f.spec->unit, source_.atmosphere);
+    const units::Parsed parsed =
+        units::parse_quantity(at.at_value, f.spec->unit, source_.atmosphere);
     if (!parsed.mistake) return parsed.si;
     if (bad_conditions_.insert(at.column).second)
       problems_.add(grid_.header().line, at.column, at.at_name, parsed.mistake->found,

@@ -9,7 +9,6 @@
 #include <set>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/recording/clock.h"
 #include "sinew/recording/columns.h"
 #include "sinew/recording/grid.h"

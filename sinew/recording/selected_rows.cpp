@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/recording/columns.h"
+#include "sinew/units/letters.h"
 
 namespace sinew::recording {
 
@@ -81,8 +81,8 @@ bool SelectedRows::meets_conditions(const Row& row) const {
     const std::string_view cell = row.cells[condition.first].text;
     const auto number = number_in(cell, grid_.dialect.numbers);
     return std::ranges::any_of(condition.second, [&](const std::string& value) {
-      const auto wanted = number_in(config::trimmed(value));
-      return number && wanted ? *number == *wanted : cell == config::trimmed(value);
+      const auto wanted = number_in(units::trimmed(value));
+      return number && wanted ? *number == *wanted : cell == units::trimmed(value);
     });
   });
 }

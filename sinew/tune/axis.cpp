@@ -2,53 +2,37 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::tune {
 namespace {
 
 constexpr double most_values = 10000;
 
-// A number with its unit, "0.05 %/count"; not a word such as "2-way".
-struct Number {
-  double value = 0;
-  std::string_view unit;
-};
-
-std::optional<Number> number_in(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  Number out;
-  const char* last = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data(), last, out.value);
-  if (error != std::errc{} || !std::isfinite(out.value)) return std::nullopt;
-  out.unit = std::string_view(end, static_cast<std::size_t>(last - end));
-  const bool letter =
-      out.unit.empty() || out.unit[0] == ' ' || out.unit[0] == '%' || (out.unit[0] | 32) >= 'a';
-  if (!letter) return std::nullopt;
-  out.unit = trimmed(out.unit);
-  return out;
+// Returns a number with its unit, "0.05 %/count"; nullopt for a word such as "2-way".
+std::optional<units::NumberAndUnit> number_in(std::string_view text) {
+  const units::NumberAndUnit out = units::split_number(text);
+  if (out.error != std::errc{} || !std::isfinite(out.number)) return std::nullopt;
+  const bool is_unit = out.unit.empty() || out.unit.data()[-1] == ' ' || out.unit[0] == '%' ||
+                       (out.unit[0] | 32) >= 'a';
+  return is_unit ? std::optional(out) : std::nullopt;
 }
 
 // Rounds to 12 digits, which removes the errors of steps: 0.30000000000000004 is 0.3.
-double rounded(double number) {
-  const std::string text = fmt::format("{:.12g}", number);
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return number;
-}
+double rounded(double number) { return units::with_digits(number, 12); }
 
 Value number_value(double number, std::string_view unit) {
-  const std::string cell = config::format_number(number);
+  const std::string cell = units::format_number(number);
   return {unit.empty() ? cell : fmt::format("{} {}", cell, unit), cell, number};
 }
 
 // Adds a list of values. Numbers share one unit, that of the last, or of those that have one.
 void add_list(Axis& axis, const std::vector<std::string_view>& items, std::string_view text,
               std::string_view setting) {
-  std::vector<std::optional<Number>> numbers;
+  std::vector<std::optional<units::NumberAndUnit>> numbers;
   for (const std::string_view item : items) {
     if (item.empty()) refuse(setting, text, "a value between two commas");
     numbers.push_back(number_in(item));
@@ -59,7 +43,7 @@ void add_list(Axis& axis, const std::vector<std::string_view>& items, std::strin
   }
   for (std::size_t i = 0; i < items.size(); ++i) {
     const std::string word(items[i]);
-    axis.values.push_back(numbers[i] ? number_value(numbers[i]->value, axis.unit)
+    axis.values.push_back(numbers[i] ? number_value(numbers[i]->number, axis.unit)
                                      : Value{word, word, std::nullopt});
   }
 }
@@ -82,7 +66,7 @@ std::vector<double> between_colons(Axis& axis, std::string_view text, const Form
     if (!part->unit.empty() && !axis.unit.empty() && axis.unit != part->unit)
       refuse(form.setting, text, "one unit", form.example);
     if (!part->unit.empty()) axis.unit = part->unit;
-    out.push_back(part->value);
+    out.push_back(part->number);
     if (colon == rest.npos) break;
     rest.remove_prefix(colon + 1);
   }

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
+#include "sinew/units/letters.h"
 
 namespace sinew::tune {
 
@@ -44,7 +44,7 @@ Axis seeds(int n);
 // Splits a list at its commas, except those within brackets and quotes; trims its parts.
 std::vector<std::string_view> list_of(std::string_view text);
 
-using config::trimmed;
+using units::trimmed;
 
 // All combinations of the axes' values; the last axis varies fastest.
 class Grid {

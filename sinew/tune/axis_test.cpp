@@ -7,7 +7,8 @@
 #include <set>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
+#include "sinew/config/setting.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::tune::axis_test {
 namespace {
@@ -62,7 +63,7 @@ TEST(Axis, ARangesTextsAreItsNumbers) {
   for (int i = 0; i < 100; ++i) {
     const double from = any(random), to = any(random);
     const Axis axis =
-        parse_axis("k=" + config::format_number(from) + ":" + config::format_number(to) + ":7 mm");
+        parse_axis("k=" + units::format_number(from) + ":" + units::format_number(to) + ":7 mm");
     ASSERT_EQ(axis.values.size(), 7U);
     for (std::size_t k = 0; k < 7; ++k) {
       const double wanted = from + static_cast<double>(k) * (to - from) / 6.0;

@@ -6,8 +6,8 @@
 
 #include "sinew/analysis/verdict/reported.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/tune/axis.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::tune {
 namespace {
@@ -25,9 +25,9 @@ Figure parse_figure(std::string_view text, std::string_view setting) {
   if (!text.ends_with(']')) refuse(setting, text, "a bracket that closes");
   out.named = true;
   out.unit = trimmed(text.substr(bracket + 1, text.size() - bracket - 2));
-  const config::Parsed parsed = config::parse_quantity("1 " + out.unit, si);
+  const units::Parsed parsed = units::parse_quantity("1 " + out.unit, si);
   if (parsed.mistake)
-    refuse(setting, text, "a unit of " + config::describe_unit(si), parsed.mistake->try_this);
+    refuse(setting, text, "a unit of " + units::describe_unit(si), parsed.mistake->try_this);
   return out;
 }
 
@@ -41,8 +41,8 @@ std::string Figure::cell(const analysis::Summary& summary, double atmosphere) co
   const double* si = summary.find(key);
   if (!si) return "";
   const std::string own = analysis::unit_of_key(key);
-  if (unit == own) return config::format_number(*si);
-  return fmt::format("{:.9g}", config::convert(*si, own, unit, atmosphere));
+  if (unit == own) return units::format_number(*si);
+  return fmt::format("{:.9g}", units::convert(*si, own, unit, atmosphere));
 }
 
 std::vector<Figure> parse_figures(std::string_view text, std::string_view setting) {
@@ -94,10 +94,8 @@ Condition parse_condition(std::string_view text, std::string_view setting) {
   if (text[sign] == '>') out.is = equal ? Condition::Is::at_least : Condition::Is::above;
 
   const std::string_view value = trimmed(text.substr(sign + (equal ? 2 : 1)));
-  const config::Parsed parsed = config::parse_quantity(value, analysis::unit_of_key(out.key));
-  if (parsed.mistake)
-    config::fail({std::string(setting), 0, 0}, out.key, parsed.mistake->found,
-                 parsed.mistake->expected, parsed.mistake->try_this);
+  const units::Parsed parsed = units::parse_quantity(value, analysis::unit_of_key(out.key));
+  if (parsed.mistake) config::fail({std::string(setting), 0, 0}, out.key, *parsed.mistake);
   out.limit = parsed.si;
   return out;
 }

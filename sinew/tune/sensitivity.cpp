@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/tune/sample.h"

@@ -8,12 +8,12 @@
 #include "sinew/config/changes.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/reader.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/tune/study.fields.h"
 #include "sinew/tune/sweep.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::tune {
 
@@ -63,7 +63,7 @@ namespace {
 std::optional<Sample> sample_of(const Study& study) {
   if (study.range.empty()) {
     if (study.points > 0)
-      config::fail({"points", 0, 0}, "", config::format_number(study.points),
+      config::fail({"points", 0, 0}, "", units::format_number(study.points),
                    "ranges to sample from", "range=\"KEY=from:to unit\"");
     return std::nullopt;
   }
@@ -166,9 +166,8 @@ void check_values(const Sweep& s, const Axis& axis, const config::Origin& origin
   if (origin.unit.empty()) return check_whole_numbers(s, axis);
   for (const Value& value : axis.values) {
     const auto mistake =
-        config::parse_quantity(value.text, origin.unit, atmosphere, origin.text).mistake;
-    if (mistake)
-      config::fail({axis.key, 0, 0}, "", mistake->found, mistake->expected, mistake->try_this);
+        units::parse_quantity(value.text, origin.unit, atmosphere, origin.text).mistake;
+    if (mistake) config::fail({axis.key, 0, 0}, "", *mistake);
   }
 }
 

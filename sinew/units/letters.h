@@ -1,8 +1,10 @@
-// units/letters.h - blanks and small letters of a text.
+// units/letters.h - blanks, small letters, quotes and typing errors of a text.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sinew::units {
 
@@ -20,5 +22,26 @@ inline std::string lower(std::string_view text) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return out;
 }
+
+// Returns the text with each word between the separators replaced by `replacement(word)`.
+template <class Replacement>
+std::string with_words(std::string_view text, std::string_view separators,
+                       const Replacement& replacement) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
+    out += replacement(text.substr(at, end - at));
+    out += text.substr(end, 1);
+    at = end + 1;
+  }
+  return out;
+}
+
+// Returns the text in double quotes, shortened if it is too long for a message.
+std::string in_quotes(std::string_view text);
+
+// Returns the candidate most similar to `word`; empty if no candidate is close enough for a typing
+// error.
+std::string_view closest(std::string_view word, const std::vector<std::string_view>& candidates);
 
 }  // namespace sinew::units

@@ -1,10 +1,10 @@
 #include "sinew/units/shown.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "sinew/units/letters.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::units {
 namespace {
@@ -50,12 +50,6 @@ ShownUnit shown_unit(std::string_view name, std::string_view held, double room) 
   return out;
 }
 
-std::string in_quotes(std::string_view text) {
-  std::string out = "\"";
-  out += text;
-  return out += '"';
-}
-
 std::string names_of_quantities() {
   std::string out;
   for (const ShownQuantity& q : shown_quantities)
@@ -72,48 +66,45 @@ std::string hint_for(std::string_view word) {
   return example;
 }
 
-// Returns a failed reading with this message.
-ShownUnitsReading wrong(std::string found, std::string expected, std::string try_this) {
-  return {{}, std::move(found), std::move(expected), std::move(try_this)};
-}
-
-// Returns an error if a unit does not suit the quantity, else an empty reading. Completes `unit` to
-// its full name.
-ShownUnitsReading check_unit(const ShownQuantity& q, std::string& unit) {
+// Returns the mistake of a unit that does not suit the quantity. Completes `unit` to its full name.
+std::optional<Mistake> check_unit(const ShownQuantity& q, std::string& unit) {
   const auto [text, reference] = unit_and_reference(unit);
   const std::string usual(q.metric.usual);
   const std::string wanted =
       "a unit of " + std::string(q.name) + ", as " + std::string(q.thesis.usual) + " or " + usual;
   if (!read_unit(text).ok || text.empty())
-    return wrong(in_quotes(unit) + ", which is no unit", wanted, std::string(q.name) + "=" + usual);
+    return Mistake{in_quotes(unit) + ", which is no unit", wanted,
+                   std::string(q.name) + "=" + usual};
   if (!measures(text, q.unit))
-    return wrong(in_quotes(unit) + ", which measures something else", wanted,
-                 std::string(q.name) + "=" + usual);
+    return Mistake{in_quotes(unit) + ", which measures something else", wanted,
+                   std::string(q.name) + "=" + usual};
   const bool difference = q.unit == "Pa diff";
   const std::string bare(text);
   if (difference) {
     if (!reference.empty() && reference != "diff")
-      return wrong(in_quotes(unit), "a difference of pressures", std::string(q.name) + "=" + bare);
+      return Mistake{in_quotes(unit), "a difference of pressures",
+                     std::string(q.name) + "=" + bare};
     unit = bare + " diff";
   } else if (q.unit == "Pa" && reference != "gauge" && reference != "abs") {
-    return wrong(in_quotes(unit) + ", a pressure without its reference", wanted,
-                 "pressure=" + bare + " gauge, or pressure=" + bare + " abs");
+    return Mistake{in_quotes(unit) + ", a pressure without its reference", wanted,
+                   "pressure=" + bare + " gauge, or pressure=" + bare + " abs"};
   } else if (q.unit != "Pa" && !reference.empty()) {
-    return wrong(in_quotes(unit), wanted, std::string(q.name) + "=" + bare);
+    return Mistake{in_quotes(unit), wanted, std::string(q.name) + "=" + bare};
   }
-  return {};
+  return std::nullopt;
 }
 
-ShownUnitsReading read_choice(std::string_view piece, std::size_t equals, ShownUnits& units) {
+std::optional<Mistake> read_choice(std::string_view piece, std::size_t equals, ShownUnits& units) {
   std::string name(trimmed(piece.substr(0, equals)));
   for (char& c : name)
     if (c == '-' || c == '_') c = ' ';
   const ShownQuantity* q = quantity_named(name);
-  if (!q) return wrong(in_quotes(name) + ", which is no quantity", names_of_quantities(), example);
+  if (!q)
+    return Mistake{in_quotes(name) + ", which is no quantity", names_of_quantities(), example};
   std::string unit(trimmed(piece.substr(equals + 1)));
-  if (ShownUnitsReading no = check_unit(*q, unit); !no.ok()) return no;
+  if (auto mistake = check_unit(*q, unit)) return mistake;
   units.choose(q->name, unit);
-  return {};
+  return std::nullopt;
 }
 
 }  // namespace
@@ -173,11 +164,8 @@ ShownUnit ShownUnits::of_difference(std::string_view unit, double largest) const
 std::string ShownUnits::text(double value, std::string_view unit, int digits, double room) const {
   ShownUnit shown = of(unit, unknown_size, room);
   if (std::abs(shown.of(value)) >= 1000) shown = of(unit, std::abs(value), room);
-  char buffer[64];
-  const auto end = std::to_chars(std::begin(buffer), std::end(buffer), shown.of(value),
-                                 std::chars_format::general, digits);
-  std::string out(buffer, end.ptr);
-  return shown.name.empty() ? out : out + " " + shown.name;
+  const std::string number = format_number(shown.of(value), digits);
+  return shown.name.empty() ? number : number + " " + shown.name;
 }
 
 std::string ShownUnits::text() const {
@@ -194,16 +182,19 @@ ShownUnitsReading read_shown_units(std::string_view text, const ShownUnits& belo
     const bool first = at == 0;
     at = comma + 1;
     if (const std::size_t equals = piece.find('='); equals != piece.npos) {
-      if (ShownUnitsReading no = read_choice(piece, equals, units); !no.ok()) return no;
+      if (auto mistake = read_choice(piece, equals, units)) return {{}, mistake};
       continue;
     }
     const auto set = std::ranges::find(sets, piece, [](const auto& s) { return s.first; });
     if (set == sets.end())
-      return wrong(in_quotes(piece), "si, thesis or metric, then QUANTITY=UNIT", hint_for(piece));
-    if (!first) return wrong(in_quotes(text), "one set, named first", in_quotes(piece) + " alone");
+      return {
+          {},
+          Mistake{in_quotes(piece), "si, thesis or metric, then QUANTITY=UNIT", hint_for(piece)}};
+    if (!first)
+      return {{}, Mistake{in_quotes(text), "one set, named first", in_quotes(piece) + " alone"}};
     units = ShownUnits(set->second);
   }
-  return {units, "", "", ""};
+  return {units, {}};
 }
 
 std::optional<QuantityUnit> read_quantity_unit(std::string_view unit, double room) {

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "sinew/units/constants.h"
+#include "sinew/units/mistake.h"
 #include "sinew/units/unit.h"
 
 namespace sinew::units {
@@ -92,13 +93,10 @@ class ShownUnits {
   std::vector<std::pair<std::string, std::string>> choices_;  // quantity, unit
 };
 
-// Units read from a text, or the parts of an error message.
+// Units read from a text, or the reason why it is not valid.
 struct ShownUnitsReading {
   ShownUnits units;
-  std::string found, expected, try_this;  // all empty if the text is valid
-
-  // Returns whether the text is valid.
-  bool ok() const { return found.empty(); }
+  std::optional<Mistake> mistake;
 };
 
 // Reads "thesis", "metric,pressure=kPa gauge" or "length=cm": the set and then choices. Without a

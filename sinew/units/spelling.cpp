@@ -14,8 +14,6 @@ namespace {
 
 using namespace std::string_view_literals;
 
-using units::lower;
-
 // Characters outside ASCII, and powers, in Sinew's spelling.
 constexpr std::pair<std::string_view, std::string_view> signs[] = {
     {"\u00B0C", "degC"},   {"\u2103", "degC"}, {"\u00B0", "deg"},
@@ -46,7 +44,7 @@ struct Whole {
   std::string_view ours, theirs;
   double factor = 1;
 };
-constexpr double kilopond = units::standard_gravity;  // [N]
+constexpr double kilopond = standard_gravity;  // [N]
 // clang-format off
 constexpr Whole wholes[] = {
     {"N m", "nm, n-m"},
@@ -182,25 +180,21 @@ constexpr std::pair<std::string_view, std::string_view> reference_words[] = {
     {"_a", "abs"},         {"g", "gauge"},       {"a", "abs"},        {"d", "diff"}};
 
 bool is_pressure(std::string_view unit) {
-  const units::UnitReading reading = units::read_unit(unit);
-  return reading.ok && reading.unit.dimension == units::dimension::pressure;
+  const UnitReading reading = read_unit(unit);
+  return reading.ok && reading.unit.dimension == dimension::pressure;
 }
 
-bool reads(std::string_view unit) { return !unit.empty() && units::read_unit(unit).ok; }
+bool reads(std::string_view unit) { return !unit.empty() && read_unit(unit).ok; }
 
 // Replaces each name between signs: "lbf/sec" -> "lbf/s". A hyphen between names multiplies.
 std::string with_our_words(std::string_view text) {
-  std::string out;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find_first_of(" /()-23456789", at), text.size());
-    const std::string_view piece = text.substr(at, end - at);
+  std::string out = with_words(text, " /()-23456789", [](std::string_view piece) {
     // Sinew's own names are kept: the capitals in "MPa" and "mm" matter.
-    const bool ours = units::find_unit(piece) != units::known_units.end();
+    const bool ours = find_unit(piece) != known_units.end();
     const Whole* word = ours ? nullptr : row_with(known_words, lower(piece));
-    out += word ? word->ours : piece;
-    if (end < text.size()) out += text[end] == '-' ? ' ' : text[end];
-    at = end + 1;
-  }
+    return word ? word->ours : piece;
+  });
+  std::ranges::replace(out, '-', ' ');
   return out;
 }
 
@@ -219,7 +213,7 @@ std::vector<Spelling> bare_spellings(std::string_view text) {
     return out;
   }
   const std::string plain = with_plain_signs(text);
-  const std::string_view text_in_ascii = units::trimmed(plain);
+  const std::string_view text_in_ascii = trimmed(plain);
   if (const Whole* whole = row_with(by_capitals, text_in_ascii)) {
     if (!whole->ours.empty()) out.push_back({std::string(whole->ours), whole->factor});
     return out;
@@ -238,21 +232,21 @@ std::vector<Spelling> bare_spellings(std::string_view text) {
 }  // namespace
 
 bool is_unit(std::string_view unit) {
-  const auto [bare, reference] = units::unit_and_reference(units::trimmed(unit));
+  const auto [bare, reference] = unit_and_reference(trimmed(unit));
   return reference.empty() ? reads(bare) : is_pressure(bare);
 }
 
 std::vector<Spelling> spellings(std::string_view unit) {
-  std::string_view text = units::trimmed(unit);
+  std::string_view text = trimmed(unit);
   while (text.size() > 2 && text.front() == '[' && text.back() == ']')
-    text = units::trimmed(text.substr(1, text.size() - 2));
+    text = trimmed(text.substr(1, text.size() - 2));
   if (text.empty()) return {};
 
   // Pressures with a reference: "psig", "bar abs", and "bar g", which is not a bar times a gram.
   for (const auto& [ending, reference] : reference_words) {
     const std::string small = lower(text);
     if (!small.ends_with(ending) || small.size() == ending.size()) continue;
-    const std::string_view bare = units::trimmed(text.substr(0, text.size() - ending.size()));
+    const std::string_view bare = trimmed(text.substr(0, text.size() - ending.size()));
     std::vector<Spelling> out = bare_spellings(bare);
     if (out.empty() || !is_pressure(out.front().unit)) continue;
     out.front().unit.append(1, ' ').append(reference);

@@ -17,8 +17,8 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/node.h"
-#include "sinew/config/quantity.h"
 #include "sinew/units/field.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::guards {
 
@@ -153,7 +153,7 @@ inline config::Node quantity(const NumericField& field, double si) {
   if (field.unit.empty() && std::abs(si) < 1e15 && si == std::floor(si))
     return config::make_integer("", static_cast<std::int64_t>(si));
   if (field.unit.empty() || field.unit == "1") return config::make_number("", si);
-  return config::make_text("", config::format_number(si) + " " + field.unit);
+  return config::make_text("", units::format_number(si) + " " + field.unit);
 }
 
 }  // namespace sinew::guards

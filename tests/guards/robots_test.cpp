@@ -74,7 +74,7 @@ void hang_on_links(Node& root, Random& random) {
   while (random.one_in(6)) {
     const std::string name = "more" + std::to_string(root.find("link")->children.size());
     const auto number = [&](double low, double high) {
-      return config::format_number(random.between(low, high));
+      return units::format_number(random.between(low, high));
     };
     const Node more = config::parse_text(
         "[link." + name + "]\nlength = \"" + number(0.01, 0.1) + " m\"\nmass = \"" +

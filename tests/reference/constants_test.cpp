@@ -11,12 +11,13 @@
 #include <vector>
 
 #include "sinew/analysis/measures/laws.h"
-#include "sinew/config/quantity.h"
+#include "sinew/config/setting.h"
 #include "sinew/control/gait/path.h"
 #include "sinew/control/setup/joint_controllers.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/signals/tick.h"
 #include "sinew/units/constants.h"
+#include "sinew/units/quantity.h"
 #include "tests/reference/reference.h"
 
 namespace sinew::reference::constants_test {
@@ -48,7 +49,7 @@ std::string our_unit(const std::string& name, const std::string& unit) {
 }
 
 double converted(double value, const std::string& unit, const std::string& si_unit) {
-  const std::string number = config::format_number(value);
+  const std::string number = units::format_number(value);
   return config::quantity(unit == "1" ? number : number + " " + unit, si_unit, "constant");
 }
 

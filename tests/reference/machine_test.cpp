@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "sinew/analysis/record/machine.h"
-#include "sinew/config/quantity.h"
+#include "sinew/config/setting.h"
 #include "sinew/control/gait/path.h"
 #include "sinew/control/setup/joint_controllers.h"
 #include "sinew/experiment/experiment.h"

@@ -10,7 +10,7 @@
 
 #include "sinew/analysis/align/divergence.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
+#include "sinew/config/setting.h"
 
 namespace sinew::analysis {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
+#include "sinew/units/letters.h"
 
 namespace sinew::analysis {
 
@@ -59,8 +59,8 @@ Event parse_event(const std::string& text) {
                  "a channel, > or <, and a level with its unit", "\"/joint/elbow/angle > 10 deg\"");
   };
   if (sign == text.npos) fail("\"" + text + "\", without > or <");
-  Event out{std::string(config::trimmed(text.substr(0, sign))), text[sign] == '>',
-            std::string(config::trimmed(text.substr(sign + 1)))};
+  Event out{std::string(units::trimmed(text.substr(0, sign))), text[sign] == '>',
+            std::string(units::trimmed(text.substr(sign + 1)))};
   if (!out.channel.starts_with("/")) fail("\"" + text + "\", which begins with no channel");
   if (out.level.empty()) fail("\"" + text + "\", without a level");
   return out;

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/json/json.h"
 #include "sinew/units/key_endings.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::analysis {
 
@@ -26,7 +26,7 @@ void put(Json& root, std::string_view key, double value) {
 
 // Prints JSON with the fewest digits for each number; nlohmann's printing may have one more.
 std::string text_of(const Json& json, const std::string& indent) {
-  if (json.is_real()) return config::format_number(json.number());
+  if (json.is_real()) return units::format_number(json.number());
   if (!json.is_array() && !json.is_object()) return json.text();
   const bool list = json.is_array();
   if (json.empty()) return list ? "[]" : "{}";
@@ -95,26 +95,26 @@ namespace {
 
 struct BandOrMistake {
   Band band;
-  std::optional<config::Mistake> mistake;
+  std::optional<units::Mistake> mistake;
 };
 
 // Returns the band of an `accept` that is not empty.
 BandOrMistake read_accept(const Reported& r, double atmosphere) {
   if (r.accept.size() != 2)
     return {{},
-            config::Mistake{fmt::format("{} values", r.accept.size()),
-                            "two: the lowest and the highest that agrees", ""}};
+            units::Mistake{fmt::format("{} values", r.accept.size()),
+                           "two: the lowest and the highest that agrees", ""}};
   const std::string unit = unit_of_key(r.key);
   std::array<double, 2> si{};
   for (std::size_t i = 0; i < 2; ++i) {
-    const config::Parsed parsed = config::parse_quantity(r.accept[i], unit, atmosphere);
+    const units::Parsed parsed = units::parse_quantity(r.accept[i], unit, atmosphere);
     if (parsed.mistake) return {{}, parsed.mistake};
     si[i] = parsed.si;
   }
   if (si[0] > si[1])
     return {{},
-            config::Mistake{fmt::format("\"{}\" before \"{}\"", r.accept[0], r.accept[1]),
-                            "the lowest first", ""}};
+            units::Mistake{fmt::format("\"{}\" before \"{}\"", r.accept[0], r.accept[1]),
+                           "the lowest first", ""}};
   return {another(si[0], si[1]), std::nullopt};
 }
 
@@ -157,7 +157,7 @@ bool is_share(Wording wording) {
 // Returns the band of a wording in SI; the rule is applied in the unit of the source's text.
 BandOrMistake read_wording(const Reported& r, double atmosphere) {
   const auto mistake = [](std::string found, std::string expected) {
-    return BandOrMistake{{}, config::Mistake{std::move(found), std::move(expected), ""}};
+    return BandOrMistake{{}, units::Mistake{std::move(found), std::move(expected), ""}};
   };
   const bool share = is_share(r.wording);
   const QuotedNumber value = quoted_number(share ? r.of : r.value);
@@ -182,9 +182,9 @@ BandOrMistake read_wording(const Reported& r, double atmosphere) {
   for (double* end : {&band.lowest, &band.highest}) {
     if (std::isinf(*end)) continue;
     const std::string text = value.unit.empty()
-                                 ? config::format_number(*end)
-                                 : fmt::format("{} {}", config::format_number(*end), value.unit);
-    const config::Parsed parsed = config::parse_quantity(text, unit_of_key(r.key), atmosphere);
+                                 ? units::format_number(*end)
+                                 : fmt::format("{} {}", units::format_number(*end), value.unit);
+    const units::Parsed parsed = units::parse_quantity(text, unit_of_key(r.key), atmosphere);
     if (parsed.mistake)
       return mistake(fmt::format("\"{}\"", share ? r.of : r.value), parsed.mistake->expected);
     *end = parsed.si;
@@ -197,7 +197,7 @@ BandOrMistake read_band(const Reported& r, double atmosphere) {
 }
 
 bool is_unit(std::string_view text, const std::string& unit, double atmosphere) {
-  return !config::parse_quantity(fmt::format("1 {}", text), unit, atmosphere).mistake;
+  return !units::parse_quantity(fmt::format("1 {}", text), unit, atmosphere).mistake;
 }
 
 // Returns the text after the last number: "in" of "55 to 60 in", "psi gauge" of "100 psi gauge".
@@ -231,7 +231,7 @@ bool is_changed(const config::Node& root) {
 std::string accept_text(const Reported& r, const Band& band, const std::string& unit,
                         double atmosphere) {
   const auto number = [&](double si) {
-    return config::convert(si, unit_of_key(r.key), unit, atmosphere);
+    return units::convert(si, unit_of_key(r.key), unit, atmosphere);
   };
   // Enough digits to distinguish the ends.
   const double width = number(band.highest) - number(band.lowest);
@@ -259,7 +259,7 @@ Verdict judge(const Summary& summary, const Reported& r, double atmosphere,
   if (config::is_judged(r)) {
     const BandOrMistake read = read_band(r, atmosphere);
     if (read.mistake) {
-      const config::Mistake& m = *read.mistake;
+      const units::Mistake& m = *read.mistake;
       const char* key = r.accept.empty() ? ": wording" : ": accept";
       config::fail({"reported", 0, 0}, r.key + key, m.found, m.expected, m.try_this);
     }
@@ -273,7 +273,7 @@ Verdict judge(const Summary& summary, const Reported& r, double atmosphere,
   if (!value_of_run) return v;
   // A narrow band requires more digits.
   const auto quoted_unit_in = [&](double si) {
-    return config::convert(si, unit_of_key(r.key), unit, atmosphere);
+    return units::convert(si, unit_of_key(r.key), unit, atmosphere);
   };
   const double width = band ? quoted_unit_in(band->highest) - quoted_unit_in(band->lowest) : 0;
   v.computed = show(*value_of_run, r.key, unit, atmosphere, std::isfinite(width) ? width : 0);
@@ -312,7 +312,7 @@ std::string_view without_unit(std::string_view key) {
   return key;
 }
 
-std::optional<config::Mistake> mistake_in_band(const Reported& r, double atmosphere) {
+std::optional<units::Mistake> mistake_in_band(const Reported& r, double atmosphere) {
   if (!config::is_judged(r)) return std::nullopt;
   return read_band(r, atmosphere).mistake;
 }
@@ -358,7 +358,7 @@ std::string shown_unit(std::string_view key, const units::ShownUnits& shown, dou
 
 std::string show(double si, std::string_view key, std::string_view unit, double atmosphere,
                  double resolution) {
-  const double number = config::convert(si, unit_of_key(key), unit, atmosphere);
+  const double number = units::convert(si, unit_of_key(key), unit, atmosphere);
   const double size = std::abs(number);
   const int wanted = resolution > 0 ? static_cast<int>(std::ceil(-std::log10(resolution))) : 0;
   std::string text;

@@ -22,9 +22,9 @@
 
 #include "sinew/analysis/verdict/band.h"
 #include "sinew/config/node.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/reported.h"
 #include "sinew/units/constants.h"
+#include "sinew/units/quantity.h"
 #include "sinew/units/shown.h"
 
 namespace sinew::analysis {
@@ -33,7 +33,7 @@ class Summary;
 
 using config::Reported;
 
-// Returns the SI unit of a key's ending, in the form of config/quantity.h: _m, _m_per_s, _rad,
+// Returns the SI unit of a key's ending, in the form of units/quantity.h: _m, _m_per_s, _rad,
 // _rad_per_s, _N, _Nm, _Nm_per_rad, _N_s_per_m, _kg, _kg_per_m, _J, _J_per_m, _s_per_m, _per_m,
 // _count, _Pa (absolute), _diff_Pa, _Hz, _s. Returns "1" for every other ending.
 std::string unit_of_key(std::string_view key);
@@ -44,8 +44,8 @@ std::string quoted_unit(const Reported&, double atmosphere = units::atmosphere);
 
 // Returns the mistake in `accept`, or in the values that a wording needs; empty if there is no
 // mistake.
-std::optional<config::Mistake> mistake_in_band(const Reported&,
-                                               double atmosphere = units::atmosphere);
+std::optional<units::Mistake> mistake_in_band(const Reported&,
+                                              double atmosphere = units::atmosphere);
 
 // A figure of the source, the one of the run, and whether they agree.
 struct Verdict {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "sinew/config/changes.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/utf8.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::config {
 
@@ -28,7 +28,7 @@ std::string toml_key(std::string_view key) {
 }
 
 std::string toml_real(double value) {
-  const std::string text = format_number(value);
+  const std::string text = units::format_number(value);
   return text.find_first_of(".en") == text.npos ? text + ".0" : text;
 }
 
@@ -90,8 +90,9 @@ void print_table(const Node& table, const std::string& path, std::string& out) {
 
 // `plain`: in SI with all digits; else without digits caused by conversion.
 Node quantity_node(std::string_view key, double si, std::string_view unit, bool plain) {
-  if (plain) return unit == "1" ? make_number(key, si) : make_text(key, format_quantity(si, unit));
-  std::string text = short_quantity(si, unit);
+  if (plain)
+    return unit == "1" ? make_number(key, si) : make_text(key, units::format_quantity(si, unit));
+  std::string text = units::short_quantity(si, unit);
   return unit == "1" && !text.ends_with('%') ? make_number(key, si)
                                              : make_text(key, std::move(text));
 }
@@ -192,9 +193,10 @@ Node Writer::value_of(const units::VisitedField& f) const {
     for (const std::string& text : *f.texts) list.children.push_back(make_text("", text));
   else
     for (std::size_t k = 0; k < f.numbers->size(); ++k) {
-      const std::string unit = f.type == Type::numbers
-                                   ? std::string(f.field.unit)
-                                   : coefficient_unit(f.field.unit, f.per, static_cast<int>(k));
+      const std::string unit =
+          f.type == Type::numbers
+              ? std::string(f.field.unit)
+              : units::coefficient_unit(f.field.unit, f.per, static_cast<int>(k));
       list.children.push_back(quantity_node("", (*f.numbers)[k], unit, !origins_));
     }
   return list;

@@ -6,7 +6,7 @@
 //   file << writer.text();
 //
 // Quantities are in SI with the digits that read back to the same bits; with origins, for human
-// readers, in the unit that makes them short (config/quantity.h). A number that is not finite means
+// readers, in the unit that makes them short (units/quantity.h). A number that is not finite means
 // "not set" and is left out.
 #pragma once
 

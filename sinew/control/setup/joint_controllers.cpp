@@ -5,12 +5,12 @@
 #include <stdexcept>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/config/quantity.h"
 #include "sinew/control/setup/boards.h"
 #include "sinew/control/setup/estimators.h"
 #include "sinew/robot/actuator_of.h"
 #include "sinew/robot/kinematics.h"
 #include "sinew/units/constants.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::control {
 namespace {
@@ -155,7 +155,7 @@ void MuscleSide::add_misfits(double flexor_torque_per_count, List& out) const {
       "sensor." + sensor(in_.robot, robot::angle_sensor_of(
                                         in_.robot, robot::find_joint(in_.robot, joint_.name)))
                       .name;
-  const auto number = [](double x) { return config::format_number(std::round(x)); };
+  const auto number = [](double x) { return units::format_number(std::round(x)); };
   const std::string remedy = "another length, " + angle + ".assumed.scale or moment_arm";
 
   if (!(free_length() < max_length + 1.0))
@@ -355,7 +355,7 @@ std::vector<robot::Contradiction> misfits(const Installation& in) {
                          sensor(robot, robot::angle_sensor_of(robot, j)).assumed_scale;
     if (!(std::abs(clamp) <= max_length))
       out.push_back({"low_level.stiffness_pole_clamp",
-                     config::format_number(std::round(clamp)) + " count of joint " + joint.name,
+                     units::format_number(std::round(clamp)) + " count of joint " + joint.name,
                      "within " + std::to_string(max_length) + " count of 0",
                      "a smaller one, or the sensor's assumed.scale"});
   }

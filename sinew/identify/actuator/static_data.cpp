@@ -10,10 +10,10 @@
 #include <set>
 #include <tuple>
 
-#include "sinew/config/quantity.h"
 #include "sinew/identify/actuator/static_settled.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::identify {
 
@@ -105,7 +105,7 @@ void refuse_full(const Measured& m, std::string_view column, const std::vector<d
       fmt::format("{}: {}", m.file, column),
       fmt::format("{} samples that stay at {}: the sensor or its converter is at its end", c.at_top,
                   m.has(column) ? in_unit_of_file(m, column, c.top, 5)
-                                : config::format_quantity(c.top, "N", "N", 5)),
+                                : units::format_quantity(c.top, "N", "N", 5)),
       "readings within its range", "a sensor of a larger range, or less pressure");
 }
 

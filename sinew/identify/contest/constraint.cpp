@@ -6,8 +6,9 @@
 #include <cmath>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
+#include "sinew/units/letters.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::identify {
 
@@ -32,8 +33,8 @@ void split_prior(Constraint& constraint) {
     const std::size_t at = constraint.value.find(mark);
     if (at == constraint.value.npos) continue;
     constraint.deviation =
-        config::trimmed(std::string_view(constraint.value).substr(at + mark.size()));
-    constraint.value = config::trimmed(std::string_view(constraint.value).substr(0, at));
+        units::trimmed(std::string_view(constraint.value).substr(at + mark.size()));
+    constraint.value = units::trimmed(std::string_view(constraint.value).substr(0, at));
     const std::size_t unit = constraint.deviation.find_first_not_of("0123456789.eE+-");
     if (constraint.value.find_first_not_of("0123456789.eE+-") == constraint.value.npos &&
         unit != constraint.deviation.npos)
@@ -47,8 +48,8 @@ Constraint parse_constraint(Constraint::Kind kind, const std::string& text) {
   const std::string form(forms[static_cast<std::size_t>(kind)]);
   const std::size_t equals = text.find('=');
   if (equals == text.npos) fail_constraint(out, form);
-  out.name = config::trimmed(std::string_view(text).substr(0, equals));
-  out.value = config::trimmed(std::string_view(text).substr(equals + 1));
+  out.name = units::trimmed(std::string_view(text).substr(0, equals));
+  out.value = units::trimmed(std::string_view(text).substr(equals + 1));
   if (kind == Constraint::Kind::prior) split_prior(out);
   const bool incomplete =
       kind == Constraint::Kind::prior && (out.deviation.empty() || out.value.empty());
@@ -78,7 +79,7 @@ double value_of(const Constraint& constraint, const Parameter& p) {
 }
 
 double deviation_of(const Constraint& constraint, const Parameter& p) {
-  return number_of(constraint, constraint.deviation, config::difference_unit(p.unit),
+  return number_of(constraint, constraint.deviation, units::difference_unit(p.unit),
                    config::above_zero(unbounded, "a standard deviation"));
 }
 

@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 
 #include "sinew/actuator/actuator.fields.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/write/writer.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::identify {
 
@@ -41,8 +40,8 @@ void Provenance::fitted(std::string_view path, std::string_view unit, double unc
   origin.source = source;
   origin.fit = true;
   if (std::isfinite(uncertainty))
-    origin.uncertainty = config::format_quantity(uncertainty, config::difference_unit(unit),
-                                                 config::difference_unit(unit), 3);
+    origin.uncertainty = units::format_quantity(uncertainty, units::difference_unit(unit),
+                                                units::difference_unit(unit), 3);
 }
 
 void Provenance::given(std::string_view path, std::string_view source) {
@@ -52,13 +51,6 @@ void Provenance::given(std::string_view path, std::string_view source) {
 void Provenance::guessed(std::string_view path, std::string_view source) {
   given(path, source);
   origins_.back().guess = true;
-}
-
-double with_digits(double number, int digits) {
-  const std::string text = fmt::format("{:.{}g}", number, digits);
-  double out = number;
-  std::from_chars(text.data(), text.data() + text.size(), out);
-  return out;
 }
 
 actuator::Actuator without_idle_digits(actuator::Actuator a) {
@@ -96,13 +88,13 @@ actuator::Actuator without_idle_digits(actuator::Actuator a) {
                          &a.prediction.rest_length,
                          &a.prediction.lowest,
                          &a.prediction.highest})
-    *number = with_digits(*number, of_laws);
+    *number = units::with_digits(*number, of_laws);
   actuator::Prediction& p = a.prediction;
-  for (double& length : p.lengths) length = with_digits(length, of_laws);
+  for (double& length : p.lengths) length = units::with_digits(length, of_laws);
   for (double* width : {&p.inside_68, &p.inside_95, &p.per_force_68, &p.per_force_95, &p.between_68,
                         &p.between_95, &p.beyond_68, &p.beyond_95, &p.above_68, &p.above_95,
                         &p.other_68, &p.other_95, &p.other_reach})
-    *width = with_digits(*width, of_widths);
+    *width = units::with_digits(*width, of_widths);
   // The widest mesh must not exceed the long end.
   a.long_end.length = std::max(a.long_end.length, actuator::shortest_length(a));
   return a;

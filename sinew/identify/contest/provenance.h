@@ -40,12 +40,9 @@ class Provenance {
   std::string elsewhere_ = "keys without a source of their own: not identified, without effect";
 };
 
-// Returns the number with at most this many significant digits; infinity and NaN unchanged.
-double with_digits(double number, int digits);
-
 // Returns the actuator with ten digits of identified values and four of prediction errors.
 // Measurements do not justify more, and a file would print the rest in whichever unit has a digit
-// fewer (config/quantity.h).
+// fewer (units/quantity.h).
 actuator::Actuator without_idle_digits(actuator::Actuator actuator);
 
 // Returns a file of format sinew.actuator/1; paths begin with "actuator.<name>.".

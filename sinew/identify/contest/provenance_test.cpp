@@ -4,21 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/thesis_actuator.h"
 
 namespace sinew::identify::provenance_test {
 namespace {
-
-TEST(Digits, AreTheRequestedOnes) {
-  EXPECT_EQ(with_digits(3.16713958, 4), 3.167);
-  EXPECT_EQ(with_digits(-1234567.0, 3), -1230000.0);
-  EXPECT_EQ(with_digits(2.61773e-6, 10), 2.61773e-6);
-  EXPECT_EQ(with_digits(0, 4), 0);
-  EXPECT_TRUE(std::isinf(with_digits(std::numeric_limits<double>::infinity(), 4)));
-}
 
 // Files are in SI for any number: with sixteen digits another unit might need one digit less and be
 // used, "0.000458414332647958 in/lbf".

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <vector>
 
-#include "sinew/config/quantity.h"
 #include "sinew/identify/contest/refusal.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::identify {
 
@@ -94,7 +94,7 @@ std::string in_unit_of_file(const Measured& data, std::string_view column, doubl
   const auto at = std::ranges::find(data.columns, column, &Column::name);
   if (at == data.columns.end()) return fmt::format("{:.{}g}", value, digits);
   const std::string& shown = at->shown.empty() ? at->unit : at->shown;
-  return config::format_quantity(value, at->unit, shown, digits);
+  return units::format_quantity(value, at->unit, shown, digits);
 }
 
 void refuse_constant(const Measured& data, std::string_view column, double tolerance,

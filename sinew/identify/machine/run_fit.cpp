@@ -7,13 +7,13 @@
 #include <cmath>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/identify/contest/fit.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/machine/machine_numbers.h"
 #include "sinew/identify/machine/run_search.h"
 #include "sinew/json/json.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::identify {
 
@@ -286,14 +286,14 @@ std::string run_file(const RunFitResult& found, const std::string& source, confi
   for (const Estimate& e : found.report.best().parameters) {
     if (!e.identifiable) continue;
     const std::string key = e.name.substr(e.name.rfind('.') + 1);
-    const std::string unit(config::difference_unit(e.unit));
+    const std::string unit(units::difference_unit(e.unit));
     config::Node leaf = config::make_table(key);
-    leaf.put(config::make_text("value", config::rounded_quantity(e.value, e.unit)));
+    leaf.put(config::make_text("value", units::rounded_quantity(e.value, e.unit)));
     leaf.put(config::make_flag("fit", true));
     const bool told = std::isfinite(e.high - e.low);
     if (told)
       leaf.put(config::make_text("uncertainty",
-                                 config::format_quantity(0.5 * (e.high - e.low), unit, unit, 3)));
+                                 units::format_quantity(0.5 * (e.high - e.low), unit, unit, 3)));
     leaf.put(config::make_text("source", told ? source : source + "; how far off is not known"));
     put_at(robot, e.name, std::move(leaf));
   }

@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/text_file.h"
 #include "sinew/recording/columns.h"
 #include "sinew/recording/grid.h"
+#include "sinew/units/quantity.h"
 #include "sinew/units/unit.h"
 
 namespace sinew::identify {
@@ -134,7 +134,7 @@ void refuse_beyond(const Measured& data, const Column& column, const CountScale&
     if (value <= most && (!counts || value >= 0)) continue;
     config::fail(
         {data.file, data.lines[i], 1}, column.name,
-        config::format_quantity(value, column.unit, column.unit),
+        units::format_quantity(value, column.unit, column.unit),
         counts ? fmt::format("0 to {:g}, the counts of {} bits", most, converter.bits)
                : fmt::format("at most {} V, the converter's full scale", converter.full_scale),
         counts ? "bits=N of your converter, or the columns: they may be swapped"

@@ -8,11 +8,11 @@
 #include <set>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/identify/contest/contest.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/sensor/points.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::identify {
 
@@ -167,7 +167,7 @@ void refuse_poor(const SensorData& data, const SensorReadings& s, const Usable& 
   if (level_count(u.points) < 2)
     refuse(data, s.name,
            fmt::format("one known value throughout, {}",
-                       config::format_quantity(u.known.front(), facts.unit, facts.unit, 5)),
+                       units::format_quantity(u.known.front(), facts.unit, facts.unit, 5)),
            "two or more: one does not determine both scale and offset",
            "another load, angle or pressure");
   const double low = smallest(u.output), high = largest(u.output);

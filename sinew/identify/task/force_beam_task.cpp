@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::identify {
 
@@ -65,25 +65,25 @@ std::string text_of(const Transducer& s, const units::ShownUnits* shown) {
     report::TextTable table({"", ""}, {Align::left, Align::right});
     for (const TransducerLine& line : answer(s)) {
       const bool is_own = std::string_view(line.unit) == "1" || std::string_view(line.unit) == "V";
-      table.add({line.words, is_own ? config::format_quantity(line.value, line.unit, line.display)
+      table.add({line.words, is_own ? units::format_quantity(line.value, line.unit, line.display)
                                     : shown->text(line.value, line.unit, 6)});
     }
     return table.text().substr(1);
   }
   report::TextTable table({"", "SI", "in, lbf, psi"}, {Align::left, Align::right, Align::right});
   for (const TransducerLine& line : answer(s))
-    table.add({line.words, config::format_quantity(line.value, line.unit, line.unit),
+    table.add({line.words, units::format_quantity(line.value, line.unit, line.unit),
                std::string_view(line.unit) == "1"
                    ? ""
-                   : config::format_quantity(line.value, line.unit, line.display)});
+                   : units::format_quantity(line.value, line.unit, line.display)});
   return table.text();
 }
 
 std::string text_of_places(const Transducer& s, double wanted, const units::ShownUnits* shown) {
   const auto text = [&](double m) {
     return shown ? shown->text(m, "m", 5)
-                 : config::format_quantity(m, "m", "m", 5) + "  " +
-                       config::format_quantity(m, "m", "in", 4);
+                 : units::format_quantity(m, "m", "m", 5) + "  " +
+                       units::format_quantity(m, "m", "in", 4);
   };
   std::string out;
   for (const auto& [name, distance] : places(s, wanted))

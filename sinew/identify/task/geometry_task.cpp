@@ -6,13 +6,13 @@
 #include "sinew/actuator/actuator.h"
 #include "sinew/actuator/braid.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/identify/contest/fit.h"
 #include "sinew/identify/contest/provenance.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::identify {
 
@@ -53,9 +53,9 @@ void put_braid(const GeometryFound& found, const TextOptions& how, std::string& 
   const config::UnitsToShow chosen = how.units;
   const std::string unit = chosen.is_requested ? chosen.units.of("m").name : "mm";
   put(out, "thread_length  {}  [17]\nturns          {}  [18]\nshortest       {}  [5], [6]\n",
-      config::format_quantity(found.braid.thread_length, "m", unit),
-      config::format_number(found.braid.turns),
-      config::format_quantity(actuator::shortest_length(found.braid), "m", unit));
+      units::format_quantity(found.braid.thread_length, "m", unit),
+      units::format_number(found.braid.turns),
+      units::format_quantity(actuator::shortest_length(found.braid), "m", unit));
 }
 
 // Returns the result with an actuator's file of this braid and guesses for the rest.

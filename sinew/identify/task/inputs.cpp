@@ -8,7 +8,6 @@
 #include <array>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/identify/actuator/creep.h"
 #include "sinew/identify/actuator/geometry.h"
@@ -20,6 +19,7 @@
 #include "sinew/identify/valve/valve.h"
 #include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
+#include "sinew/units/quantity.h"
 #include "sinew/units/unit.h"
 
 namespace sinew::identify {
@@ -254,7 +254,7 @@ std::vector<std::string> accepted_units(const ColumnSpec& w) {
       if (u.dimension == dimension) add(std::string(u.name) + reference);
   for (const std::string_view unit : compound_units)
     if (dimension_of_column(unit) == dimension) add(unit);
-  for (const std::string& unit : config::usual_units(w.unit)) add(unit);
+  for (const std::string& unit : units::usual_units(w.unit)) add(unit);
   return out;
 }
 

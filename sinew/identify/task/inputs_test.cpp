@@ -8,13 +8,13 @@
 #include <sstream>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/sensor/readings.h"
 #include "sinew/identify/valve/valve.h"
 #include "sinew/json/json.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::identify::inputs_test {
 namespace {
@@ -121,7 +121,7 @@ TEST(Inputs, AcceptedUnitsConvert) {
       const std::vector<std::string> accepted = accepted_units(w);
       EXPECT_EQ(accepted.empty(), !w.words.empty()) << w.name;
       for (const std::string& unit : accepted)
-        EXPECT_FALSE(config::parse_quantity("1 " + (unit == "1" ? "" : unit), w.unit).mistake)
+        EXPECT_FALSE(units::parse_quantity("1 " + (unit == "1" ? "" : unit), w.unit).mistake)
             << w.name << " in " << unit;
     }
 }

@@ -13,7 +13,6 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/node.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/identify/contest/fit.h"
@@ -24,6 +23,7 @@
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
+#include "sinew/units/letters.h"
 #include "sinew/units/shown.h"
 
 namespace sinew::identify {
@@ -70,8 +70,8 @@ ParameterFile file_of(const PairResult& found, const std::string& joint, const s
 // Returns both ends of a range such as "7 s..14 s"; one may be open.
 std::pair<double, double> times_of(const std::string& text) {
   const std::size_t dots = text.find("..");
-  const std::string_view from = config::trimmed(std::string_view(text).substr(0, dots)),
-                         to = config::trimmed(std::string_view(text).substr(dots + 2));
+  const std::string_view from = units::trimmed(std::string_view(text).substr(0, dots)),
+                         to = units::trimmed(std::string_view(text).substr(dots + 2));
   const auto time = [](std::string_view end, double open) {
     return end.empty() ? open : config::quantity_setting("hold_out", end, "s");
   };
@@ -191,7 +191,7 @@ bool is_time_range(std::string_view text) {
   const std::size_t dots = text.find("..");
   if (dots == text.npos) return false;
   const auto time = [](std::string_view end) {
-    end = config::trimmed(end);
+    end = units::trimmed(end);
     return end.empty() || (end[0] >= '0' && end[0] <= '9') || end[0] == '-';
   };
   const std::string_view from = text.substr(0, dots), to = text.substr(dots + 2);

@@ -7,12 +7,12 @@
 #include <cmath>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::identify {
 
@@ -61,18 +61,18 @@ class PlanReader {
     out.longest = values_.given(settings_.longest).value_or(out.longest);
     out.lowest = values_.given(settings_.lowest).value_or(out.lowest);
     if (out.longest - out.shortest < 0.01 * out.longest)
-      config::fail({"longest", 0, 0}, "", config::format_quantity(out.longest, "m", "mm", 4),
-                   "at least 1 % above the shortest, " +
-                       config::format_quantity(out.shortest, "m", "mm", 4));
+      config::fail(
+          {"longest", 0, 0}, "", units::format_quantity(out.longest, "m", "mm", 4),
+          "at least 1 % above the shortest, " + units::format_quantity(out.shortest, "m", "mm", 4));
     if (out.longest <= lowest)
-      config::fail({"longest", 0, 0}, "", config::format_quantity(out.longest, "m", "mm", 4),
+      config::fail({"longest", 0, 0}, "", units::format_quantity(out.longest, "m", "mm", 4),
                    "a length at which the muscle pulls, above " +
-                       config::format_quantity(lowest, "m", "mm", 4));
+                       units::format_quantity(lowest, "m", "mm", 4));
     if (out.lowest > 0.9 * out.highest)
       config::fail({"lowest", 0, 0}, "",
-                   config::format_quantity(out.lowest, "Pa gauge", "kPa gauge", 4),
+                   units::format_quantity(out.lowest, "Pa gauge", "kPa gauge", 4),
                    "well below the highest, " +
-                       config::format_quantity(out.highest, "Pa gauge", "kPa gauge", 4));
+                       units::format_quantity(out.highest, "Pa gauge", "kPa gauge", 4));
     return out;
   }
 

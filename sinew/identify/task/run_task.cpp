@@ -10,7 +10,6 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/identify/contest/fit.h"
 #include "sinew/identify/contest/provenance.h"
@@ -22,6 +21,8 @@
 #include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/setup/buildable.h"
+#include "sinew/units/letters.h"
+#include "sinew/units/quantity.h"
 #include "sinew/units/shown.h"
 
 namespace sinew::identify {
@@ -33,8 +34,8 @@ std::optional<std::pair<std::string, std::string>> parted(
     std::string_view text, std::initializer_list<std::string_view> marks) {
   for (const std::string_view mark : marks)
     if (const std::size_t at = text.find(mark); at != text.npos)
-      return std::pair{std::string(config::trimmed(text.substr(0, at))),
-                       std::string(config::trimmed(text.substr(at + mark.size())))};
+      return std::pair{std::string(units::trimmed(text.substr(0, at))),
+                       std::string(units::trimmed(text.substr(at + mark.size())))};
   return {};
 }
 
@@ -62,7 +63,7 @@ RunPrior prior_of(const std::string& text, experiment::Experiment& e) {
   return {number.key,
           config::quantity_setting("prior", told->first, number.unit, e.air.atmosphere,
                                    {number.low, number.high, "as its field"}),
-          config::quantity_setting("prior", told->second, config::difference_unit(number.unit),
+          config::quantity_setting("prior", told->second, units::difference_unit(number.unit),
                                    e.air.atmosphere, config::above_zero(unbounded, "a spread"))};
 }
 

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
@@ -17,6 +16,7 @@
 #include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/robot/sensor.fields.h"
+#include "sinew/units/quantity.h"
 #include "sinew/units/unit.h"
 
 namespace sinew::identify {
@@ -182,13 +182,13 @@ void put_table(std::string& out, const Calibration& c, const std::string& shown)
        "hysteresis", "noise [mV]", "step [mV]", "error from average"},
       {left, right, right, right, left, right, right, right, right, right, right});
   const auto add = [&](const std::string& name, double sensitivity, auto... rest) {
-    const double scale = config::convert(scale_of(c, sensitivity), unit, shown);
+    const double scale = units::convert(scale_of(c, sensitivity), unit, shown);
     table.add({name, digits(scale, "{:.5g}"), rest...});
   };
   for (const SensorResult& r : c.sensors) {
     const Fit& best = r.report.best();
     add(r.name, r.sensitivity,
-        digits(config::convert(scale_uncertainty(c, r), unit, shown), "+- {:.2g}"),
+        digits(units::convert(scale_uncertainty(c, r), unit, shown), "+- {:.2g}"),
         digits(r.at_rest, "{:.4f}"), best.model,
         best.held_out ? percent(best.held_out->rmse_percent / 100) : "-", percent(r.linearity),
         percent(r.hysteresis), digits(1000 * r.noise, "{:.2g}"), digits(1000 * r.step, "{:.3g}"),

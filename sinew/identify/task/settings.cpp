@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/identify/task/tables.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::identify {
 
@@ -86,7 +86,7 @@ std::vector<double> SettingValues::each(const std::string& member, std::size_t t
 }
 
 void SettingList::row(const Setting& row, double value) {
-  this->row(row, config::format_number(value));
+  this->row(row, units::format_number(value));
 }
 
 void SettingList::row(const Setting& row, const std::string& value) {

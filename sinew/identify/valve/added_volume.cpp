@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/config/quantity.h"
 #include "sinew/gas/orifice.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/valve/fill.h"
 #include "sinew/identify/valve/fill_trust.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::identify {
 
@@ -215,7 +215,7 @@ void refuse_same_volumes(std::span<const AddedFill> fills) {
       "added_volume",
       fills.size() < 2 ? "one filling"
                        : fmt::format("{} fillings with the same volume joined, {}", fills.size(),
-                                     config::format_quantity(most->added, "m3", "L", 4)),
+                                     units::format_quantity(most->added, "m3", "L", 4)),
       "two at least, with different ones: 1/k = (V + added)/C", "added_volume=\"0 L,0.5 L\"");
 }
 
@@ -280,7 +280,7 @@ ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions&
     report.rows.at.insert(report.rows.at.end(), c.time.begin(), c.time.end());
     report.rows.measured.insert(report.rows.measured.end(), c.pressure.begin(), c.pressure.end());
     report.rows.group.insert(report.rows.group.end(), c.time.size(),
-                             config::format_quantity(fill.added, "m3", "L", 4) + " joined");
+                             units::format_quantity(fill.added, "m3", "L", 4) + " joined");
   }
   fit_added(fills, curves, options, report);
   const std::vector<FillSquares> squares = squares_of(report);

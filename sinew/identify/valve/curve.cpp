@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "sinew/config/quantity.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::identify {
 
@@ -19,7 +19,7 @@ constexpr std::size_t fewest_on_the_way = 8;  // samples between 10 and 90 %
 constexpr double smallest_range = 5e3;        // [Pa]
 constexpr std::size_t most_alternating = 8;   // curves in one table
 
-std::string pressure_text(double p) { return config::format_quantity(p, "Pa abs", "kPa abs", 4); }
+std::string pressure_text(double p) { return units::format_quantity(p, "Pa abs", "kPa abs", 4); }
 
 // Returns the first row beyond this share of the change; rows() if no row is.
 std::size_t first_beyond(const Curve& c, double share) {

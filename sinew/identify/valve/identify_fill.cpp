@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/config/quantity.h"
 #include "sinew/gas/orifice.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/valve/added_volume.h"
 #include "sinew/identify/valve/fill.h"
 #include "sinew/identify/valve/fill_trust.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::identify {
 
@@ -134,7 +134,7 @@ void describe(const Curve& c, const ValveOptions& options, const Estimate& alone
         "sonic conductance: found C/V = {} alone; expected the volume too: one curve does "
         "not separate C from V; try volume=\"0.5 L\", conductance=C in place of the volume, "
         "added_volume=\"0 L,0.5 L\" with a second file, or per_volume=true where C/V is enough",
-        config::format_quantity(k.value, "1/(s Pa)", "1/(s bar)", 4));
+        units::format_quantity(k.value, "1/(s Pa)", "1/(s bar)", 4));
   }
   if (half_of(k) <= well_known) return;
   out.refused += fmt::format(
@@ -152,7 +152,7 @@ void refuse_unsettled(const Measured& data, const Curve& c, const ValveOptions& 
   if (c.settled || options.port) return;
   throw Refusal(data.file + ": pressure",
                 fmt::format("one that still moves at the end, at {}",
-                            config::format_quantity(c.pressure.back(), "Pa abs", "kPa abs", 4)),
+                            units::format_quantity(c.pressure.back(), "Pa abs", "kPa abs", 4)),
                 "one that settles at the pressure on the valve's other side",
                 "a longer record, or port=PRESSURE");
 }

@@ -12,10 +12,10 @@
 
 #include "sinew/analysis/summary.h"
 #include "sinew/config/compose.h"
-#include "sinew/config/quantity.h"
 #include "sinew/report/page/content.h"
 #include "sinew/report/page/stand.h"
 #include "sinew/signals/table.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::report {
 
@@ -255,7 +255,7 @@ std::vector<Residual> residuals_of(const Comparison& c) {
       if (met.time_ns.empty()) continue;
       const std::string field = row.channel.field == "value" ? "" : "." + row.channel.field;
       out.push_back({fmt::format("{} {}{} [{}]", static_cast<char>('A' + i), row.channel.topic,
-                                 field, config::difference_unit(row.unit)),
+                                 field, units::difference_unit(row.unit)),
                      std::move(met)});
     }
   return out;
@@ -275,12 +275,12 @@ std::string residuals_csv(const Comparison& comparison) {
       if (r.at < r.met.time_ns.size())
         now = std::min(now.value_or(r.met.time_ns[r.at]), r.met.time_ns[r.at]);
     if (!now) return out;
-    out += config::format_number(1e-9 * static_cast<double>(*now));
+    out += units::format_number(1e-9 * static_cast<double>(*now));
     for (Residual& r : all) {
       out += ",";
       if (r.at >= r.met.time_ns.size() || r.met.time_ns[r.at] != *now) continue;
       const double d = r.met.difference[r.at++];
-      if (std::isfinite(d)) out += config::format_number(d);
+      if (std::isfinite(d)) out += units::format_number(d);
     }
     out += "\n";
   }

@@ -7,7 +7,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "sinew/config/quantity.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::report {
 namespace {
@@ -123,7 +123,7 @@ std::string csv(const Sheet& sheet) {
     for (std::size_t c = 0; c < sheet.columns.size(); ++c) {
       if (c > 0) out += ',';
       const double value = sheet.columns[c][row];
-      out += std::isnan(value) ? "NaN" : config::format_number(value);
+      out += std::isnan(value) ? "NaN" : units::format_number(value);
     }
     out += '\n';
   }

@@ -1,7 +1,6 @@
 #include "sinew/report/figures/gnuplot.h"
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <sstream>
 #include <thread>
@@ -13,9 +12,10 @@
 #include <unistd.h>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/report/figures/figure_layout.h"
+#include "sinew/units/letters.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::report {
 
@@ -31,11 +31,7 @@ double length(std::string_view name, const std::string& text, const config::Rang
 
 // Reads the size of letters, "9 pt" or the number alone  [pt].
 double letters_of(const std::string& text) {
-  std::string_view rest = config::trimmed(text);
-  double size = 0;
-  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), size);
-  const std::string_view unit =
-      config::trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())));
+  const auto [size, unit, error] = units::split_number(units::trimmed(text));
   if (error != std::errc() || (!unit.empty() && unit != "pt"))
     config::fail({"font", 0, 0}, "", config::in_quotes(text), "the size of letters in points",
                  "\"9 pt\"");
@@ -59,7 +55,7 @@ namespace {
 
 using Kind = Curve::Kind;
 using Style = Curve::Style;
-using config::format_number;
+using units::format_number;
 
 // The page's colors, with dashes that distinguish them in grey, and dots for desired curves.
 struct DrawingStyle {

@@ -1,39 +1,25 @@
 #include "sinew/report/page/changes.h"
 
-#include <charconv>
 #include <optional>
 
-#include "sinew/config/quantity.h"
 #include "sinew/report/page/parameters.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::report {
 namespace {
 
-// A number with its unit: "0.004 1/count".
-struct Number {
-  double value = 0;
-  std::string unit;
-};
-
-std::optional<Number> number_in(std::string_view text) {
-  Number out;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out.value);
-  if (error != std::errc{}) return std::nullopt;
-  out.unit = config::trimmed(text.substr(static_cast<std::size_t>(end - text.data())));
-  return out;
-}
-
 std::optional<PageChange> change_of(const config::Node& table) {
-  const std::optional<Number> time = number_in(value_text(table, "time"));
+  const std::string at = value_text(table, "time"), to = value_text(table, "value");
+  const units::NumberAndUnit time = units::split_number(at);
   PageChange out{.key = value_text(table, "key"), .unit = "", .leg = value_text(table, "leg")};
-  if (!time || time->unit != "s" || out.key.empty()) return std::nullopt;
-  out.time = time->value;
+  if (time.unit != "s" || out.key.empty()) return std::nullopt;
+  out.time = time.number;
   out.release = value_text(table, "release") == "true";
   if (out.release) return out;
-  const std::optional<Number> value = number_in(value_text(table, "value"));
-  if (!value) return std::nullopt;
-  out.value = value->value;
-  out.unit = value->unit.empty() ? "1" : value->unit;
+  const units::NumberAndUnit value = units::split_number(to);
+  if (value.error != std::errc{}) return std::nullopt;
+  out.value = value.number;
+  out.unit = units::written_unit(to);
   return out;
 }
 

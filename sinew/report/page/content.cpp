@@ -10,7 +10,6 @@
 
 #include "sinew/analysis/record/derived.h"
 #include "sinew/analysis/summary.h"
-#include "sinew/config/quantity.h"
 #include "sinew/log/deflate.h"
 #include "sinew/report/page/changes.h"
 #include "sinew/report/page/page.h"

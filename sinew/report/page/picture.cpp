@@ -1,11 +1,11 @@
 #include "sinew/report/page/picture.h"
 
-#include <charconv>
 #include <exception>
 
 #include "sinew/analysis/record/machine.h"
 #include "sinew/report/page/content.h"
 #include "sinew/robot/legs.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::report {
 namespace {
@@ -16,10 +16,9 @@ double start_angle(const config::Node& resolved, const robot::Joint& joint) {
   for (const std::string& key : {std::string("joint_angles"), joint.name})
     if (node != nullptr) node = node->find(key);
   if (node != nullptr && node->is_value_table()) node = node->find("value");
-  double angle = joint.rest_angle;
-  if (node != nullptr && node->text.ends_with(" rad"))
-    std::from_chars(node->text.data(), node->text.data() + node->text.size(), angle);
-  return angle;
+  if (node == nullptr) return joint.rest_angle;
+  const units::NumberAndUnit angle = units::split_number(node->text);
+  return angle.unit == "rad" ? angle.number : joint.rest_angle;
 }
 
 // Returns a log with a single row.

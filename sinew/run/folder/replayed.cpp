@@ -8,7 +8,6 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/json/json.h"
 #include "sinew/log/reader.h"
 #include "sinew/report/text/text_table.h"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <functional>
 
-#include "sinew/config/quantity.h"
 #include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::run {
 
@@ -79,7 +79,7 @@ std::vector<Cell> cells_for(bool moves, bool predicts, const ColumnUnits& u) {
   const auto add = [&](const char* title, double Point::*value, const char* unit,
                        const std::string& display, const char* format) {
     out.push_back({fmt::format("{} [{}]", title, display), [=](const Point& p) {
-                     return shown(config::convert(p.*value, unit, display), format);
+                     return shown(units::convert(p.*value, unit, display), format);
                    }});
   };
   add("length", &Point::length, "m", u.length, "{:.5g}");
@@ -118,12 +118,12 @@ std::string text_of(const Point& p, const units::ShownUnits* units) {
       if (!is_on_request(row)) table.add({row.words, "-"});
     } else if (units) {
       const std::string_view unit = row.unit;
-      table.add({row.words, unit == "1" ? config::format_quantity(value, "1", "1")
+      table.add({row.words, unit == "1" ? units::format_quantity(value, "1", "1")
                                         : units->text(value, unit, 6)});
     } else {
       const bool plain = std::string_view(row.unit) == "1";
-      table.add({row.words, config::format_quantity(value, row.unit, row.unit),
-                 plain ? "" : config::format_quantity(value, row.unit, row.display)});
+      table.add({row.words, units::format_quantity(value, row.unit, row.unit),
+                 plain ? "" : units::format_quantity(value, row.unit, row.display)});
     }
   }
   return units ? table.text().substr(1) : table.text();

@@ -8,13 +8,14 @@
 #include "sinew/actuator/body.h"
 #include "sinew/air/network.h"
 #include "sinew/config/compose.h"
-#include "sinew/config/quantity.h"
+#include "sinew/config/setting.h"
 #include "sinew/control/gait/legs.h"
 #include "sinew/control/setup/joint_controllers.h"
 #include "sinew/experiment/check.h"
 #include "sinew/mechanism/planar/muscle_routing.h"
 #include "sinew/run/setup/installation.h"
 #include "sinew/run/setup/machine_setup.h"
+#include "sinew/units/quantity.h"
 #include "sinew/world/machine.h"
 
 namespace sinew::run {
@@ -154,7 +155,7 @@ void check_steps(const plant::Setup& s, List& out) {
   constexpr double shortest = 2e-6;  // step [s]
   const double air =
       air::AirNetwork<plant::most_muscles>(s.muscles, s.air, s.supply, s.cylinder).longest_step();
-  const auto micro = [](double step) { return config::format_number(1e6 * step) + " us"; };
+  const auto micro = [](double step) { return units::format_number(1e6 * step) + " us"; };
   if (s.air.wall_time > 0 && air < shortest) {  // else quick air is integrated ahead
     out.push_back({"air", "a hose or a cylinder's chamber that fills within " + micro(air),
                    "at least 2 us", "a larger volume, a hose without one, or no air.wall_time"});

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "sinew/config/quantity.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::run {
 namespace {
 
-std::string inches(double metres) { return config::format_quantity(metres, "m", "in"); }
+std::string inches(double metres) { return units::format_quantity(metres, "m", "in"); }
 
 // Returns the length at which the braid's chamber has no volume, if that is the cause.
 std::string describe_length(const air::Failure& failure, const actuator::Actuator& actuator) {

@@ -10,12 +10,12 @@
 #include "sinew/actuator/body.h"
 #include "sinew/air/lanes.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/json/json.h"
 #include "sinew/mechanism/planar/muscle_routing.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/robot/actuator_of.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::run {
 
@@ -23,7 +23,7 @@ namespace {
 
 // Returns a length or a torque as text; the 1e-9 that rounding leaves is shown as 0.
 std::string shown(double si, std::string_view unit, std::string_view display) {
-  return config::format_quantity(std::abs(si) < 1e-9 ? 0 : si, unit, display, 5);
+  return units::format_quantity(std::abs(si) < 1e-9 ? 0 : si, unit, display, 5);
 }
 
 }  // namespace
@@ -34,14 +34,14 @@ std::string text_of(const robot::Robot& robot, const Stance& s, const StanceUnit
                                 s.within() ? "" : ": beyond a muscle's lengths");
   for (std::size_t j = 0; j < s.angles.size(); ++j)
     out += fmt::format("  {:<14} {}\n", robot.joints[j].name,
-                       config::format_quantity(s.angles[j], "rad", units.angle, 5));
+                       units::format_quantity(s.angles[j], "rad", units.angle, 5));
   report::TextTable table({"muscle", "length", "from", "to", ""});
   for (const MuscleAt& m : s.muscles)
     table.add({m.name, length(m.length), length(m.shortest), length(m.longest),
                m.within() ? "" : "beyond"});
   out += table.text("  ");
   if (s.jacobian) {
-    const auto per = [&](double si) { return config::convert(si, "m/rad", units.jacobian); };
+    const auto per = [&](double si) { return units::convert(si, "m/rad", units.jacobian); };
     const std::string head = fmt::format("  Jacobian [{}]  ", units.jacobian);
     out +=
         fmt::format("{}x: {:9.5f} {:9.5f}\n{:{}}y: {:9.5f} {:9.5f}\n", head, per(s.jacobian->x1),
@@ -106,7 +106,7 @@ std::string unit_in(const config::Origins& origins, std::string_view table, std:
                     std::string otherwise) {
   for (const config::Origin& o : origins)
     if (o.path.starts_with(table) && o.path.ends_with(key) && !o.is_default && !o.unit.empty())
-      return config::written_unit(o.text);
+      return units::written_unit(o.text);
   return otherwise;
 }
 
@@ -121,7 +121,7 @@ robot::TwoLinks need_two_links(const robot::Robot& robot) {
 
 [[noreturn]] void out_of_reach(const std::string& text, const robot::Inverse& inverse,
                                const StanceUnits& units) {
-  const auto length = [&](double m) { return config::format_quantity(m, "m", units.length, 5); };
+  const auto length = [&](double m) { return units::format_quantity(m, "m", units.length, 5); };
   config::fail({"foot", 0, 0}, "",
                fmt::format("\"{}\", {} from the first joint", text, length(inverse.distance)),
                fmt::format("{} to {}", length(inverse.shortest), length(inverse.longest)),
@@ -179,7 +179,7 @@ StanceUnits units_of_file(const experiment::Experiment& e, const std::string& fo
   StanceUnits out;
   out.length = unit_in(e.origins, "link.", ".length", out.length);
   out.angle = unit_in(e.origins, "joint.", ".rest_angle", out.angle);
-  if (config::written_unit(force.substr(0, force.find(','))) == "lbf") out.torque = "lbf in";
+  if (units::written_unit(force.substr(0, force.find(','))) == "lbf") out.torque = "lbf in";
   return out;
 }
 

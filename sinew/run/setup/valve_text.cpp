@@ -2,17 +2,17 @@
 
 #include <fmt/format.h>
 
-#include "sinew/config/quantity.h"
 #include "sinew/gas/delay.h"
 #include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::run {
 
 std::string text_of(const gas::Valve& valve, const gas::ValveFlow& f,
                     const units::ShownUnits* shown) {
   const auto show = [&](double si, std::string_view unit, std::string_view display) {
-    return shown ? shown->text(si, unit, 5) : config::format_quantity(si, unit, display, 5);
+    return shown ? shown->text(si, unit, 5) : units::format_quantity(si, unit, display, 5);
   };
   report::TextTable table({"", "", ""});
   table.add({"mass flow", show(f.mass_flow, "kg/s", "kg/s"),
@@ -36,11 +36,11 @@ std::string text_of(const std::vector<Transfers>& times, double volume, const ga
   if (times.empty()) return "";
   const auto bar = [&](double p) {
     return shown ? shown->text(p, "Pa", 4, room)
-                 : config::format_quantity(p, "Pa abs", "psi abs", 4);
+                 : units::format_quantity(p, "Pa abs", "psi abs", 4);
   };
   std::string out = fmt::format(
       "\n{} between {} and {}, valve open:\n",
-      shown ? shown->text(volume, "m3", 6) : config::format_quantity(volume, "m3", "in3"),
+      shown ? shown->text(volume, "m3", 6) : units::format_quantity(volume, "m3", "in3"),
       bar(f.downstream), bar(f.upstream));
   using enum report::TextTable::Align;
   report::TextTable table({"the air", "of the way", "fill [ms]", "vent [ms]"},

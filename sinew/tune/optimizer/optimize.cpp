@@ -1,7 +1,6 @@
 #include "sinew/tune/optimizer/optimize.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <exception>
 #include <stdexcept>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::tune {
 
@@ -152,7 +152,7 @@ Figures Generation::figures(const Row& row) const {
   const auto take = [&](const std::vector<std::size_t>& cells, std::vector<double>& to) {
     for (const std::size_t cell : cells) {
       out.ok = out.ok && !row.cells[cell].empty();
-      to.push_back(number_in(row.cells[cell]));
+      to.push_back(units::split_number(row.cells[cell]).number);
     }
   };
   take(goals_, out.goals);
@@ -353,12 +353,6 @@ StudyRequest request_of(const Tuning& tuning) {
   // distinguished.
   out.text.insert(out.text.find('\n') + 1, own);
   add_columns(tuning, out);
-  return out;
-}
-
-double number_in(const std::string& cell) {
-  double out = 0;
-  std::from_chars(cell.data(), cell.data() + cell.size(), out);
   return out;
 }
 

@@ -54,9 +54,6 @@ Tuned optimize(const Tuning& tuning, const TuneOptions& options);
 StudyRequest request_of(const Tuning& tuning);
 CandidateRow row_of(const Candidate& candidate);
 
-// Returns the number in a cell of a table; 0 if it has none.
-double number_in(const std::string& cell);
-
 // Tuning with a study's file: each row is stored as soon as its run is done, each candidate as soon
 // as its generation is.
 

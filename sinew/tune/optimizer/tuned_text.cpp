@@ -13,6 +13,7 @@
 #include "sinew/config/write/writer.h"
 #include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::tune {
 namespace {
@@ -104,7 +105,7 @@ std::string table_of(const Tuning& tuning, const std::vector<const Candidate*>& 
     const Axis& axis = tuning.runs.sample->ranges[i].axis;
     const RowUnit unit = row_unit(axis.unit, true, shown, room);
     add("          " + heading_of(axis.key, unit.name), [&](const Candidate& c) {
-      return fmt::format("{:.5g}", unit.of(number_in(c.values[i].cell)));
+      return fmt::format("{:.5g}", unit.of(units::split_number(c.values[i].cell).number));
     });
   }
   return table.text();
@@ -137,7 +138,7 @@ std::string ends_of(const Tuning& tuning, const Candidate& candidate) {
   for (std::size_t i = 0; i < tuning.tuned; ++i) {
     const Range& range = tuning.runs.sample->ranges[i];
     if (range.scale == Range::Scale::whole) continue;
-    const double share = range.share_of(number_in(candidate.values[i].cell));
+    const double share = range.share_of(units::split_number(candidate.values[i].cell).number);
     if (share > near && share < 1 - near) continue;
     out += fmt::format(
         "candidate {}: {} is at the {} end of its range; a wider one may be better\n",

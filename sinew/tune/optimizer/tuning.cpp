@@ -1,7 +1,6 @@
 #include "sinew/tune/optimizer/tuning.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
@@ -12,12 +11,12 @@
 #include "sinew/config/changes.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/node.h"
-#include "sinew/config/quantity.h"
 #include "sinew/config/reader.h"
 #include "sinew/host/module.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/tune/optimizer/module/methods.h"
 #include "sinew/tune/optimizer/tuning.fields.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::tune {
 
@@ -107,7 +106,7 @@ Limit limit_of(const TuningFile& file, const std::string& text) {
             .limit = condition.limit,
             .text = text,
             .si = condition.limit};
-  if (out.figure.unit != si) out.limit = config::convert(condition.limit, si, out.figure.unit);
+  if (out.figure.unit != si) out.limit = units::convert(condition.limit, si, out.figure.unit);
   return out;
 }
 
@@ -218,10 +217,8 @@ std::optional<double> element_of(const Range& range, const config::Node& root) {
   const config::Node* node = config::value_at(root, range.axis.key);
   if (!node) return std::nullopt;
   const std::string text = config::written(*node);
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
-  if (error != std::errc{} || trimmed(unit) != range.axis.unit) return std::nullopt;
+  const auto [number, unit, error] = units::split_number(text);
+  if (error != std::errc{} || unit != range.axis.unit) return std::nullopt;
   return number;
 }
 
@@ -230,10 +227,10 @@ std::optional<double> number_of(const Range& range, const config::Origins& origi
   const config::Origin* origin = config::find_origin(origins, range.axis.key);
   if (!origin) return std::nullopt;
   const std::string unit = origin->unit.empty() ? "1" : origin->unit;
-  const config::Parsed parsed = config::parse_quantity(origin->text, unit, atmosphere);
+  const units::Parsed parsed = units::parse_quantity(origin->text, unit, atmosphere);
   if (parsed.mistake) return std::nullopt;
   return range.axis.unit.empty() ? parsed.si
-                                 : config::convert(parsed.si, unit, range.axis.unit, atmosphere);
+                                 : units::convert(parsed.si, unit, range.axis.unit, atmosphere);
 }
 
 // Sets the atmospheric pressure, and the shares of the experiment's values in the tuned ranges; the

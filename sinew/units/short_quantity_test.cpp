@@ -1,16 +1,20 @@
-// config/short_quantity_test.cpp - digits caused by conversion are not shown, and no bit is lost.
+// units/short_quantity_test.cpp - digits caused by conversion are not shown, and no bit is lost.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
-#include "sinew/config/quantity.h"
+#include "sinew/units/quantity.h"
 
-namespace sinew::config::short_quantity_test {
+namespace sinew::units::short_quantity_test {
 namespace {
 
-double read(std::string_view text, std::string_view unit) { return quantity(text, unit); }
+double read(std::string_view text, std::string_view unit) {
+  const Parsed parsed = parse_quantity(text, unit);
+  return parsed.mistake ? std::nan("") : parsed.si;
+}
 
 TEST(ShortQuantity, IsWhatWasWrittenWhereSIHasDigitsOfItsOwn) {
   EXPECT_EQ(format_quantity(read("0.035 %/count", "1/count"), "1/count"),
@@ -58,19 +62,21 @@ TEST(RoundedQuantity, HasNoDigitsThatNobodyWrote) {
   EXPECT_EQ(rounded_quantity(1.0 / 3, "m"), "0.333333333333333 m");
 }
 
+TEST(Digits, AreTheRequestedOnes) {
+  EXPECT_EQ(with_digits(3.16713958, 4), 3.167);
+  EXPECT_EQ(with_digits(-1234567.0, 3), -1230000.0);
+  EXPECT_EQ(with_digits(2.61773e-6, 10), 2.61773e-6);
+  EXPECT_EQ(with_digits(0, 4), 0);
+  EXPECT_TRUE(std::isinf(with_digits(std::numeric_limits<double>::infinity(), 4)));
+}
+
 TEST(QuantityLike, SpeaksInTheUnitThatSomebodyWrote) {
   EXPECT_EQ(quantity_like("80 mm", 0.127, "m", "in"), "127 mm");
   EXPECT_EQ(quantity_like("3.2in", 0.127, "m", "mm"), "5 in");
   EXPECT_EQ(quantity_like("", 0.127, "m", "in"), "5 in");
   EXPECT_EQ(quantity_like("rest", 0.127, "m", "in"), "5 in");
   EXPECT_EQ(quantity_like("4 bar gauge", 1e5 + 2e5, "Pa abs", "psi abs", 1e5), "2 bar gauge");
-  const Origins origins = {
-      {.path = "start.lift", .unit = "m", .text = "2 cm"},
-      {.path = "start.trolley", .unit = "m", .text = "0 m", .is_default = true}};
-  EXPECT_EQ(quantity_like(origins, "start.lift", 0.03, "m", "in"), "3 cm");
-  EXPECT_EQ(quantity_like(origins, "start.trolley", 0.0254, "m", "in"), "1 in");
-  EXPECT_EQ(quantity_like(origins, "start.other", 0.0254, "m", "in"), "1 in");
 }
 
 }  // namespace
-}  // namespace sinew::config::short_quantity_test
+}  // namespace sinew::units::short_quantity_test

@@ -1,5 +1,5 @@
 // Conversion from text to SI and back, and the messages if it fails.
-#include "sinew/config/quantity.h"
+#include "sinew/units/quantity.h"
 
 #include <gtest/gtest.h>
 
@@ -7,23 +7,22 @@
 #include <cmath>
 #include <random>
 
-#include "sinew/config/diagnostics.h"
 #include "sinew/units/literals.h"
 
-namespace sinew::config::quantity_test {
+namespace sinew::units::quantity_test {
 namespace {
 
-using namespace units::literals;
+using namespace literals;
 
-double read(std::string_view text, std::string_view unit) { return quantity(text, unit); }
+double read(std::string_view text, std::string_view unit) {
+  const Parsed parsed = parse_quantity(text, unit);
+  EXPECT_FALSE(parsed.mistake) << text;
+  return parsed.si;
+}
 
 std::string message(std::string_view text, std::string_view unit) {
-  try {
-    quantity(text, unit, "key");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  const auto m = parse_quantity(text, unit).mistake;
+  return m ? to_text(*m) : "no error";
 }
 
 TEST(Quantity, ReadsWhatTheLegFilesWrite) {
@@ -44,8 +43,8 @@ TEST(Quantity, ReadsWhatTheLegFilesWrite) {
 }
 
 TEST(Quantity, GaugeAndAbsoluteConvertWithTheAtmosphere) {
-  EXPECT_EQ(read("62 psi gauge", "Pa abs"), 62.0_psi + units::atmosphere);
-  EXPECT_EQ(read("14.7 psi abs", "Pa abs"), units::atmosphere);
+  EXPECT_EQ(read("62 psi gauge", "Pa abs"), 62.0_psi + atmosphere);
+  EXPECT_EQ(read("14.7 psi abs", "Pa abs"), atmosphere);
   EXPECT_DOUBLE_EQ(read("14.7 psi abs", "Pa gauge"), 0);
   EXPECT_EQ(parse_quantity("1 bar gauge", "Pa abs", 90'000).si, 190'000);
   EXPECT_EQ(read("2 psi diff", "Pa diff"), 2.0_psi);
@@ -53,38 +52,38 @@ TEST(Quantity, GaugeAndAbsoluteConvertWithTheAtmosphere) {
 
 TEST(Quantity, APressureWithoutItsReferenceIsRefused) {
   EXPECT_EQ(message("62 psi", "Pa abs"),
-            "text: key: found \"62 psi\", a pressure without its reference; expected Pa abs "
+            "found \"62 psi\", a pressure without its reference; expected Pa abs "
             "(pressure); try \"62 psi gauge\" or \"62 psi abs\"");
   EXPECT_EQ(message("2 psi gauge", "Pa diff"),
-            "text: key: found \"2 psi gauge\"; expected Pa diff (pressure); try \"2 psi diff\"");
+            "found \"2 psi gauge\"; expected Pa diff (pressure); try \"2 psi diff\"");
   EXPECT_NE(message("2 psi diff", "Pa abs").find("try \"2 psi gauge\" or"), std::string::npos);
   EXPECT_NE(message("3 in abs", "m").find("try \"3 in\""), std::string::npos);
 }
 
 TEST(Quantity, MassIsNotForce) {
   EXPECT_EQ(message("2 lb", "N"),
-            "text: key: found \"2 lb\", kg (mass); expected N (force); "
+            "found \"2 lb\", kg (mass); expected N (force); "
             "try lbf: lb is mass, lbf is force");
   EXPECT_EQ(message("2 lbf", "kg"),
-            "text: key: found \"2 lbf\", N (force); expected kg (mass); "
+            "found \"2 lbf\", N (force); expected kg (mass); "
             "try lb: lbf is force, lb is mass");
   EXPECT_NE(message("35 lb in/rad", "N m/rad").find("try lbf"), std::string::npos);
 }
 
 TEST(Quantity, AnAngleIsADimension) {
   EXPECT_EQ(message("35 lbf in", "N m/rad"),
-            "text: key: found \"35 lbf in\", N m (torque or energy); expected N m/rad (joint "
+            "found \"35 lbf in\", N m (torque or energy); expected N m/rad (joint "
             "stiffness); try \"N m/rad\" or \"lbf in/rad\": rad counts as a dimension here");
 }
 
 TEST(Quantity, OtherMistakesSayWhatToDo) {
   EXPECT_EQ(message("3.15", "m"),
-            "text: key: found 3.15 without a unit; expected m (length); try \"3.15 mm\" or "
+            "found 3.15 without a unit; expected m (length); try \"3.15 mm\" or "
             "\"3.15 in\"");
   EXPECT_EQ(message("3,15 in", "m"),
-            "text: key: found \"3,15 in\"; expected m (length); try a decimal point: \"3.15 in\"");
+            "found \"3,15 in\"; expected m (length); try a decimal point: \"3.15 in\"");
   EXPECT_EQ(message("3.15 s", "m"),
-            "text: key: found \"3.15 s\", s (time); expected m (length); "
+            "found \"3.15 s\", s (time); expected m (length); "
             "try a quantity such as \"1 m\"");
   EXPECT_NE(message("3 ins", "m").find("unknown unit \"ins\""), std::string::npos);
   EXPECT_NE(message("3 ins", "m").find("try \"in\""), std::string::npos);
@@ -98,7 +97,7 @@ TEST(Quantity, OtherMistakesSayWhatToDo) {
 // not 0.07 1/count, which is a hundred times as much.
 TEST(Quantity, TheUnitThatIsProposedIsTheOneThatWasMeant) {
   const auto hint = [](const char* unit, const char* before) {
-    return parse_quantity("0.07", unit, units::atmosphere, before).mistake->try_this;
+    return parse_quantity("0.07", unit, atmosphere, before).mistake->try_this;
   };
   EXPECT_EQ(hint("1/count", "0.035 %/count"), "\"0.07 %/count\", the unit of what stood there");
   EXPECT_EQ(hint("1/count", "0.00035 1/count"), "\"0.07 1/count\", the unit of what stood there");
@@ -159,8 +158,7 @@ TEST(Quantity, HintsOfOtherSlipsAreReadToo) {
 }
 
 TEST(Quantity, IsFinite) {
-  EXPECT_EQ(message("nan m", "m"),
-            "text: key: found \"nan m\"; expected a finite number of m (length)");
+  EXPECT_EQ(message("nan m", "m"), "found \"nan m\"; expected a finite number of m (length)");
   EXPECT_NE(message("inf", "1").find("a finite number"), std::string::npos);
   for (const char* text : {"1e999 m", "-1e999 m", "1e-999 m", "1e308 km"})
     EXPECT_NE(message(text, "m").find("from 1e-307 to 1e308, or 0"), std::string::npos) << text;
@@ -185,7 +183,7 @@ TEST(Quantity, PrintingAndReadingBringBackTheSameBits) {
 
 TEST(Quantity, ShowsInTheUnitAPersonWants) {
   EXPECT_EQ(format_quantity(3.15_in, "m", "in"), "3.15 in");
-  EXPECT_EQ(format_quantity(62.0_psi + units::atmosphere, "Pa abs", "psi gauge"), "62 psi gauge");
+  EXPECT_EQ(format_quantity(62.0_psi + atmosphere, "Pa abs", "psi gauge"), "62 psi gauge");
   EXPECT_EQ(format_quantity(0.94, "1", "%"), "94 %");
   EXPECT_THROW(convert(1, "m", "s"), std::logic_error);
 }
@@ -199,8 +197,8 @@ TEST(Quantity, CoefficientsOfAPolynomialHaveFallingUnits) {
   EXPECT_EQ(coefficient_unit("m", "m", 3), "1/m2");
   EXPECT_EQ(coefficient_unit("N", "Pa", 1), "N/Pa");
   EXPECT_EQ(read("2 lbf/psi2", coefficient_unit("N", "Pa", 2)), read("2 lbf/psi2", "N/Pa2"));
-  EXPECT_NO_THROW(read("2 N m/(rad s2)", coefficient_unit("N m/rad", "s", 2)));
-  EXPECT_NO_THROW(read("2 (s/m) (s/m)", coefficient_unit("1", "m/s", 2)));
+  EXPECT_EQ(message("2 N m/(rad s2)", coefficient_unit("N m/rad", "s", 2)), "no error");
+  EXPECT_EQ(message("2 (s/m) (s/m)", coefficient_unit("1", "m/s", 2)), "no error");
 }
 
 TEST(Quantity, OfAnotherSpellingIsRefusedWithTheRightOne) {
@@ -221,4 +219,4 @@ TEST(Quantity, OfAnotherSpellingIsRefusedWithTheRightOne) {
 }
 
 }  // namespace
-}  // namespace sinew::config::quantity_test
+}  // namespace sinew::units::quantity_test

@@ -1,4 +1,4 @@
-// config/quantity.h - conversion of quantities, "62 psi gauge", between text and SI.
+// units/quantity.h - conversion of quantities, "62 psi gauge", between text and SI.
 //
 // A field's unit is in SI: "m", "N m/rad", "1" for a plain number, and for a pressure "Pa abs", "Pa
 // gauge" or "Pa diff". A pressure's text must have a reference as well; gauge and absolute
@@ -8,22 +8,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
-#include "sinew/config/origin.h"
 #include "sinew/units/constants.h"
-#include "sinew/units/letters.h"
+#include "sinew/units/mistake.h"
 
-namespace sinew::config {
-
-using units::trimmed;
-
-// Reason why a text is not the expected quantity; becomes part of a Problem.
-struct Mistake {
-  std::string found;
-  std::string expected;
-  std::string try_this;
-};
+namespace sinew::units {
 
 // Quantity in SI, or the reason why the text is not a quantity.
 struct Parsed {
@@ -31,18 +22,28 @@ struct Parsed {
   std::optional<Mistake> mistake;
 };
 
-// Parses a quantity in a field's unit. A number without a unit is valid only for "1". `before` is
-// the text that was replaced, if any: its unit is suggested if the new text lacks one.
-Parsed parse_quantity(std::string_view text, std::string_view unit,
-                      double atmosphere = units::atmosphere, std::string_view before = {});
-
-// Parses a quantity without a file; throws Error, in which the text is called `key`.
-double quantity(std::string_view text, std::string_view unit, std::string_view key = "",
-                double atmosphere = units::atmosphere);
+// Parses a quantity in a field's unit. A number without a unit is valid only for "1". Gauge
+// pressures refer to `room` [Pa]. `before` is the text that was replaced, if any: its unit is
+// suggested if the new text lacks one.
+Parsed parse_quantity(std::string_view text, std::string_view unit, double room = atmosphere,
+                      std::string_view before = {});
 
 // Returns the mistake of a number without a unit: "3.15" for "m". Suggests the unit of `before`, or
 // else the usual units in which the number is plausible for a robot: "164 mm" for 164.
 Mistake missing_unit(std::string_view number, std::string_view unit, std::string_view before = {});
+
+// Number at the beginning of a text, and the unit after it as it is written.
+struct NumberAndUnit {
+  double number = 0;
+  std::string_view unit;
+  std::errc error{};  // without a number, or one in the range of double: the others are empty
+};
+
+// Splits "0.004 1/count" after its number, which may have a sign.
+NumberAndUnit split_number(std::string_view text);
+
+// Returns the unit that a valid quantity was written with: "in" of "3.4 in"; "1" for none.
+std::string written_unit(std::string_view text);
 
 // Returns the usual units of a quantity, including the field's own: {"m", "mm", "in"} for "m",
 // {"%/count", "1/count"} for "1/count".
@@ -53,16 +54,18 @@ std::string format_quantity(double si, std::string_view unit);
 
 // Formats a quantity rounded, in another unit of the same dimension: "3.15 in", "62 psi gauge".
 std::string format_quantity(double si, std::string_view unit, std::string_view display,
-                            int significant_digits = 6, double atmosphere = units::atmosphere);
+                            int significant_digits = 6, double room = atmosphere);
 
 // Returns "0 m to 1 m", "at least 0 m" or "at most 1 m"; empty if neither end is finite.
 std::string range_text(double low, double high, std::string_view unit);
 
 // Returns the number in the unit `display`.
 double convert(double si, std::string_view unit, std::string_view display,
-               double atmosphere = units::atmosphere);
+               double room = atmosphere);
 
-std::string format_number(double value);  // shortest with the same bits
+std::string format_number(double value);              // shortest with the same bits
+std::string format_number(double value, int digits);  // rounded to so many significant digits
+double with_digits(double value, int digits);         // rounded so; infinity and NaN unchanged
 
 // Returns the unit of a polynomial's coefficient k: ("1", "Pa", 2) -> "1/Pa2", ("m", "m", 2) ->
 // "1/m".
@@ -92,11 +95,6 @@ std::string rounded_quantity(double si, std::string_view unit);
 // Returns a quantity for a message, in the unit of the text `written`, "80 mm", or in `otherwise`
 // if that is a unit of another kind. Gauge pressures refer to `room` [Pa].
 std::string quantity_like(std::string_view written, double si, std::string_view unit,
-                          std::string_view otherwise, double room = units::atmosphere);
+                          std::string_view otherwise, double room = atmosphere);
 
-// Returns a quantity for a message, in the unit of the value at that path.
-std::string quantity_like(const Origins& origins, std::string_view path, double si,
-                          std::string_view unit, std::string_view otherwise,
-                          double room = units::atmosphere);
-
-}  // namespace sinew::config
+}  // namespace sinew::units
