@@ -57,6 +57,7 @@ step_web() {
   mkdir "$runs/compare" && for name in two/walk-test-2 same/walk-test-1; do
     "$sinew" compare "$runs/walk-test-1" "$runs/${name#*/}" -o "$runs/compare/${name%/*}.html" --quiet >/dev/null || return 1
   done
+  "$sinew" compare "$runs"/{walk-test-{1,2},faults/valve-stuck-open,walk-test-{2,1,2}} -o "$runs/compare/six.html" --quiet >/dev/null || return 1
   "$sinew" run experiments/rig/weights-90.toml -o "$runs/weights-90" --quiet --no-report >/dev/null || return 1
   "$sinew" compare "$runs"/weights-{6,9}0 -o "$runs/compare/stand.html" --quiet >/dev/null || return 1
   "$sinew" run experiments/one-joint.toml -o "$runs/lever" --quiet --no-report >/dev/null &&

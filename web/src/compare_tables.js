@@ -64,6 +64,12 @@ export class ComparisonTables {
     for (const r of this.channel_rows) this.fill_channel(r);
   }
 
+  // Marks a table that is wider than paper: in print each run has its own line or column.
+  mark_several(list) {
+    list.classList.toggle('of-several', this.others.length > 1);
+    list.style.setProperty('--others', this.others.length);
+  }
+
   // --- figures ---
 
   figures() {
@@ -72,6 +78,7 @@ export class ComparisonTables {
     const list = table('Numbers of the runs', heads, this.figure_rows.map((r) => r.row));
     list.querySelectorAll('thead th').forEach((th, i) => i > 0 && i < heads.length - 2 && th.classList.add('number'));
     list.classList.add('only-differing');
+    this.mark_several(list);
     const buttons = [
       toggle_button('Largest change first', (on) => order(list, on ? by_size(this.figure_rows) : this.figure_rows)),
       toggle_button('Show equal ones', (on) => list.classList.toggle('only-differing', !on)),
@@ -133,11 +140,11 @@ export class ComparisonTables {
     const most = Math.max(...this.channel_rows.map((r) => r.size), 1e-300);
     for (const r of this.channel_rows) r.bar.style.width = `${(100 * r.size) / most}%`;
     const heads = ['channel', '', ...this.others.flatMap((i) =>
-      [`rms, ${letter_of(i)} − A`, 'of range', 'bias', 'at most', 'at', 'r', '']), ''];
+      [element('span', {}, 'rms', element('span', { class: 'of-run' }, `, ${letter_of(i)} − A`)), 'of range', 'bias', 'at most', 'at', 'r', '']), ''];
     const sorted = by_size(this.channel_rows);
     const list = table('Differences of channels', heads, sorted.map((r) => r.row));
     list.classList.add('only-differing');
-    list.classList.toggle('of-several', this.others.length > 1);
+    this.mark_several(list);
     const same = this.data.channels.filter((c) => c.differences.every((d) => !d || d.same)).length;
     by_id('channels').append(
       heading('Channels', `${this.channel_rows.length} compared, ${same} with equal samples; the bar is rms divided by the range of values`),
@@ -150,7 +157,7 @@ export class ComparisonTables {
   channel_row(channel) {
     const bar = element('i', {});
     const name = channel.field === 'value' ? channel.topic : `${channel.topic}.${channel.field}`;
-    const cells = this.others.map((i) => this.channel_cells(channel, channel.differences[i]));
+    const cells = this.others.map((i) => this.channel_cells(channel, channel.differences[i], `${letter_of(i)} − A`));
     const unit = cell('', 'unit');
     const row = element('tr', { 'data-key': name }, element('th', { scope: 'row', class: 'key' }, name),
       element('td', { class: 'bar-cell' }, bar), ...cells.flatMap((c) => c.all), unit);
@@ -159,8 +166,8 @@ export class ComparisonTables {
     return { channel, row, bar, cells, unit, size: Math.max(...channel.differences.map(share)) };
   }
 
-  channel_cells(channel, d) {
-    const rms = cell('', 'number'), bias = cell('', 'number'), largest = cell('', 'number'), at = cell('', ''), note = cell(note_of(d), 'quiet');
+  channel_cells(channel, d, pair) {
+    const rms = element('td', { class: 'number', 'data-pair': pair }), bias = cell('', 'number'), largest = cell('', 'number'), at = cell('', ''), note = cell(note_of(d), 'quiet');
     const share = cell(d && d.span > 0 && d.rms > 0 && d.meet !== 'held' ? `${number((100 * d.rms) / d.span)} %` : '', 'number');
     const r = cell(d && typeof d.correlation === 'number' && !d.same ? d.correlation.toFixed(4) : '', 'number');
     if (d && !d.same && d.at_s !== null && d.largest !== 0)

@@ -1,6 +1,7 @@
-// Tests of the page that compares runs, with RUNS/compare/{two,same,stand,measured,long}.html: walk-test-1
-// and walk-test-2; a run and itself; weights-60 and weights-90; the lever of the bench and a recording
-// with only the angle of another lever, aligned by correlation; and two runs of 10 min.
+// Tests of the page that compares runs, with RUNS/compare/{two,same,six,stand,measured,long}.html:
+// walk-test-1 and walk-test-2; a run and itself; three runs, twice each; weights-60 and weights-90; the
+// lever of the bench and a recording with only the angle of another lever, aligned by correlation; and two
+// runs of 10 min.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { drawing_of, picture, seek, summary_of, time_of, vectors_of, with_page } from './pages.mjs';
@@ -298,6 +299,29 @@ test('dark, on paper and on a phone', async () => {
     const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok(wide <= 0, `${wide} px too wide`);
   }, { viewport: { width: 390, height: 844 } });
+});
+
+// Chromium shrinks a whole print to the width of its widest element, until nothing can be read.
+test('a print of six runs fits on paper, with each number of each run', async () => {
+  for (const file of ['two', 'six']) for (const width of [702, 1031])  // A4 without margins, upright and across [px]
+    await compared(file, async (page) => {
+      await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+      await page.emulateMedia({ media: 'print' });
+      const { wide, numbers, lines } = await page.evaluate((width) => {
+        const box = (e) => e.getBoundingClientRect(), shown = (e) => box(e).width > 0 && box(e).height > 0;
+        const row = [...document.querySelectorAll('#channels tbody tr')].find((r) => !r.matches('.equal'));
+        return {
+          wide: [...document.querySelectorAll('body *')].filter((e) => shown(e) && (box(e).left < -1 || box(e).right > width + 1))
+            .map((e) => `${e.tagName} ${e.className} of ${e.closest('[id]')?.id} to ${box(e).right}`),
+          numbers: [...document.querySelectorAll('#figures tbody tr:not(.equal) td')].every((c) => !c.textContent || shown(c)),
+          lines: new Set([...row.querySelectorAll('[data-pair]')].map((c) => Math.round(box(c).top))).size,
+        };
+      }, width);
+      assert.deepEqual(wide, [], `${file}, ${width} px`);
+      assert.ok(numbers);
+      assert.equal(lines, file === 'two' ? 1 : 5, 'a line for each run compared with the first');
+      await picture(page, `compare-${file}-print`);
+    }, { viewport: { width, height: 1000 } });
 });
 
 test('two logs of ten minutes open at once', () => compared('long', async (page) => {
