@@ -11,6 +11,7 @@
 #include "sinew/actuator/actuator.h"
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/braid.h"
+#include "sinew/actuator/hysteresis.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/units/constants.h"
 #include "sinew/units/field.h"
@@ -393,7 +394,7 @@ void fields(Visitor& v, Hysteresis& h) {
             .optional = true,
             .doc = "w_F, share of the tension by which filling pulls less and venting more"},
            h.width_per_tension);
-  if (h.width_per_pressure + 2 * h.width_per_tension >= 1)
+  if (width_growth(h) >= most_width_growth)
     units::report_conflict(
         v, "width_per_tension", "a half-width that grows as fast as the pressure",
         "width_per_pressure + 2 width_per_tension below 1", "a smaller width_per_pressure");

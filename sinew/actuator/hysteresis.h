@@ -45,6 +45,14 @@ constexpr bool has_hysteresis(const Hysteresis& h) {
          h.width_per_tension > 0;
 }
 
+// Returns w_P + 2 w_F, the largest growth of w per gauge pressure.
+constexpr double width_growth(const Hysteresis& h) {
+  return h.width_per_pressure + 2 * h.width_per_tension;
+}
+
+// Growth from which w may take all of a rising pressure: that of a muscle is less.
+inline constexpr double most_width_growth = 1;
+
 // Returns the bound of F/F_P at a gauge pressure [Pa]. It is 0 at the threshold, below which the
 // pressure does not pull, so that F/F_P has no jump there.
 inline double most_pulling_pressure(const Actuator& a, double gauge_pressure) {

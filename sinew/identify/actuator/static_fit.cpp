@@ -264,6 +264,18 @@ std::vector<std::vector<double>> starts_of(std::span<const Parameter> parameters
   return out;
 }
 
+// Keeps the growth of the friction's width below the limit of a file: where the optimum is beyond
+// it, w_P is frozen at what w_F leaves to it, and the others are fitted again.
+void limit_width(const Problem& problem, FitProblem& search, Solution& found) {
+  constexpr double most = 0.999 * actuator::most_width_growth;  // also once its digits are rounded
+  if (actuator::width_growth(problem.setting(found.values).actuator.hysteresis) <= most) return;
+  const double share = found["width_per_tension"].value;
+  std::ranges::find(search.parameters, "width_per_tension", &Parameter::name)->high = share;
+  search.constraints = search.constraints.with_frozen("width_per_pressure", most - 2 * share, true);
+  start_at(found.values, search);
+  found = least_squares(search);
+}
+
 // Marks label errors that the data leave at their prior as not identifiable. If all are so, the
 // data show only how the muscles differ. If one is at its bound, the others absorb a part of its
 // error, and their intervals are unknown.
@@ -364,6 +376,7 @@ StaticFit fit_static(const std::vector<FreeParameter>& free_parameters,
   out.solution = start ? least_squares(search.residuals, search.count, search.parameters,
                                        search.constraints, search.options)
                        : least_squares_within(search);
+  if (!start) limit_width(problem, search, out.solution);
   out.parameters = search.parameters;
   out.constraints = search.constraints;
   out.setting = problem.setting(out.solution.values);

@@ -9,8 +9,10 @@
 #include <map>
 #include <random>
 
+#include "sinew/actuator/hysteresis.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/identify/actuator/test_muscle.h"
+#include "sinew/identify/contest/provenance.h"
 #include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify::static_test {
@@ -352,6 +354,17 @@ TEST(Static, HysteresisThatGrowsWithTheForceFitsIntoAFile) {
   const double share = found.muscles[0].actuator.hysteresis.width_per_tension;
   EXPECT_GT(share, 0.2);
   EXPECT_LE(share, 0.4);
+}
+
+// A file holds widths that grow by less than the pressure: friction beyond that ends there too.
+TEST(Static, HysteresisOfPressureAndForceFitsIntoAFile) {
+  StaticSetting s = truth();
+  s.actuator.hysteresis = {.width_per_pressure = 0.5, .width_per_tension = 0.35};
+  const StaticResult found =
+      of_both_branches([&](StaticPoint& p) { p.force = predicted(s, {.rest_length = rest}, p); });
+  const actuator::Actuator read = without_idle_digits(found.muscles[0].actuator);
+  EXPECT_GT(actuator::width_growth(read.hysteresis), 0.9);
+  EXPECT_LT(actuator::width_growth(read.hysteresis), actuator::most_width_growth);
 }
 
 // Three muscles of one make, whose ends take the same length from each.
