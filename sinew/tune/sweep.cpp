@@ -74,20 +74,20 @@ void add_case(const Case& one, Point& out) {
 // runs are read once.
 class Points {
  public:
-  explicit Points(const Sweep& s)
+  explicit Points(const Sweep& s, std::shared_ptr<run::Ensembles> runs = {})
       : sweep_(s),
         shares_(s.sample ? shares(*s.sample) : std::vector<double>{}),
-        runs_(keys(s), s.allow_unreachable) {}
+        runs_(runs ? std::move(runs) : ensembles_of(s)) {}
 
   Point at(std::size_t index) const;
-  run::Ensembles& runs() const { return runs_; }
+  run::Ensembles& runs() const { return *runs_; }
 
  private:
   void add_sampled(std::size_t index, Point& out) const;
 
   const Sweep& sweep_;
   std::vector<double> shares_;
-  mutable run::Ensembles runs_;
+  std::shared_ptr<run::Ensembles> runs_;
 };
 
 void Points::add_sampled(std::size_t index, Point& out) const {
@@ -232,7 +232,7 @@ void run_points(const Sweep& s, const Points& points, std::span<const std::size_
 class Work {
  public:
   Work(const Sweep& s, const Options& options)
-      : sweep_(s), points_(s), options_(options), rows_(points(s)) {
+      : sweep_(s), points_(s, options.runs), options_(options), rows_(points(s)) {
     for (const Row& row : options.known)
       if (options.share.has(row.point)) rows_.at(row.point) = row;
     for (std::size_t i = options.share.i - 1; i < rows_.size(); i += options.share.n)
@@ -331,6 +331,10 @@ Share parse_share(std::string_view text) {
     config::fail({"shard", 0, 0}, "", config::in_quotes(text),
                  fmt::format("i/n, i from 1 to n, n at most {}", most_points), "shard=1/3");
   return out;
+}
+
+std::shared_ptr<run::Ensembles> ensembles_of(const Sweep& s) {
+  return std::make_shared<run::Ensembles>(keys(s), s.allow_unreachable);
 }
 
 std::size_t points(const Sweep& s) {

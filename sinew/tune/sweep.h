@@ -121,6 +121,8 @@ struct Options {
   bool checked = false;         // checked by an earlier sweep that differs in the sample's points
                                 // alone
   std::vector<Row> known = {};  // rows of an earlier sweep, which are not run again
+  // What earlier sweeps of the same experiment, settings and keys have read; empty: nothing.
+  std::shared_ptr<run::Ensembles> runs = {};
 };
 
 // Returns the path of the file that a value of the axis `experiment` names, in the folder of the
@@ -139,6 +141,9 @@ std::size_t points(const Sweep&);
 // Returns the keys of a summary that the sweep reports or has conditions on, each once.
 std::vector<std::string> keys(const Sweep&);
 
+// Returns empty ensembles for the runs of a sweep, for Options::runs.
+std::shared_ptr<run::Ensembles> ensembles_of(const Sweep&);
+
 // Throws config::Error if the experiment is faulty by itself, if an axis has an unknown key or
 // unit, or if there are more than most_points. Runs nothing.
 void check(const Sweep&);
@@ -149,7 +154,7 @@ void check(const Sweep&);
 // All runs of one call use the files as they were when the first of these runs read them, also if a
 // file is edited meanwhile. This holds for the experiment, its base, the robot and the robot's
 // files with their gains. It does not hold for a table of valve timing, which each run reads, nor
-// between processes of a dispatcher, nor between calls, such as the generations of a tuning.
+// between processes of a dispatcher, nor between calls without the same Options::runs.
 std::vector<Row> sweep(const Sweep&, const Options&);
 
 // Runs points of a sweep by their number, for a dispatcher. A row does not depend on the

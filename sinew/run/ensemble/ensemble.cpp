@@ -13,11 +13,11 @@
 
 #include "sinew/analysis/summary.h"
 #include "sinew/analysis/verdict/reported.h"
-#include "sinew/config/quantity.h"
 #include "sinew/experiment/check.h"
 #include "sinew/host/side_by_side.h"
 #include "sinew/run/ensemble/many.h"
 #include "sinew/run/setup/buildable.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::run {
 namespace {
@@ -33,13 +33,13 @@ std::vector<std::string> with_notes(std::vector<std::string> figures) {
 // Returns the value of a text in SI; nothing if it is no quantity of that unit.
 std::optional<double> value_of(const std::string& text, const std::string& unit,
                                double atmosphere) {
-  const config::Parsed parsed = config::parse_quantity(text, unit.empty() ? "1" : unit, atmosphere);
+  const units::Parsed parsed = units::parse_quantity(text, unit.empty() ? "1" : unit, atmosphere);
   if (parsed.mistake) return {};
   return parsed.si;
 }
 
 std::string text_of(double value, const std::string& unit) {
-  return unit.empty() ? config::format_number(value) : config::format_quantity(value, unit);
+  return unit.empty() ? units::format_number(value) : units::format_quantity(value, unit);
 }
 
 // Throws config::Error as reading the file does.

@@ -8,9 +8,9 @@
 
 #include "sinew/analysis/summary.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/run/ensemble/many.h"
 #include "sinew/run/setup/buildable.h"
+#include "sinew/units/quantity.h"
 #include "tests/places.h"
 
 namespace sinew::run::ensemble_test {
@@ -68,8 +68,8 @@ RunResult single(const std::string& file, std::span<const double> values) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Parameter& p = parameters[i];
     sets.push_back(p.key + "=" +
-                   (p.unit.empty() ? config::format_number(values[i])
-                                   : config::format_quantity(values[i], p.unit)));
+                   (p.unit.empty() ? units::format_number(values[i])
+                                   : units::format_quantity(values[i], p.unit)));
   }
   return run_once(file, sets);
 }

@@ -277,6 +277,8 @@ class Loop {
     Options own = options_.runs;
     own.progress = nullptr;
     own.checked = !first;
+    if (!ensembles_) ensembles_ = ensembles_of(runs);
+    own.runs = ensembles_;
     own.known = known_of(options_.runs.known, from, points(runs));
     if (options_.runs.progress)
       *options_.runs.progress += static_cast<std::int64_t>(own.known.size());
@@ -302,6 +304,7 @@ class Loop {
 
   const Tuning& tuning_;
   const TuneOptions& options_;
+  std::shared_ptr<run::Ensembles> ensembles_;  // of all generations
   OptimizerMethod method_;
   Tuned out_;
 };
