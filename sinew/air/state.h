@@ -51,7 +51,8 @@ struct AirValves {
     double share = 0;  // open share of its area
   };
   std::array<Valve, 2 * Most + 4> of;
-  std::array<Open, 2 * Most + 4> open;  // those that pass air: the first open_count entries
+  std::array<double, 2 * Most + 4> next_of;  // of each valve, as next_change [s]
+  std::array<Open, 2 * Most + 4> open;       // those that pass air: the first open_count entries
   int open_count = 0;
   ActingFaults faults;
   bool leaking = false;    // a fault passes air although every valve is shut

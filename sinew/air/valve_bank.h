@@ -139,9 +139,15 @@ class ValveBank {
   bool ramping_ = false;
 
  private:
+  // Returns the next instant at which a valve or its set point changes, or infinity [s].
+  static double next_of(const typename Valves::Valve& valve) noexcept {
+    return std::min(valve.shutter.next(), valve.next_set_at);
+  }
   double fraction(std::size_t valve, double t, const Valves& valves) const noexcept;
   void find_next_change(Valves& valves) const noexcept;
   void refresh(double t, Valves& valves) const noexcept;
+  void move_shutters(double t, Valves& valves) const noexcept;
+  static void add_open(std::size_t v, Valves& valves) noexcept;
   template <class Difference>
   void change(const AirFault& fault, bool begins, double t, const Difference& difference,
               Valves& valves) const noexcept;
@@ -149,12 +155,15 @@ class ValveBank {
   bool is_broken(const ActingFaults& faults) const noexcept;
   double seat_leak_flow(int valve, const FlowInputs& now, double y_from,
                         double y_to) const noexcept;
+
+  bool only_shutters_ = true;  // no faults, regulators, or shutters that open gradually
 };
 
 template <int Most>
 void ValveBank<Most>::add_tap(const gas::Valve& valve) {
   taps_.push_back({.valve = valve, .flow = gas::flow_constants(valve.flow, air_)});
   ramping_ = ramping_ || valve.profile == gas::Valve::Profile::ramp;
+  only_shutters_ = faults_.empty() && !ramping_ && only_shutters_ && !regulates(valve);
 }
 
 template <int Most>
@@ -187,23 +196,50 @@ void ValveBank<Most>::command(const signals::Edge& edge, double t, double differ
       return;  // its end will then have no effect
     valves[i].shutter.electrical(t, edge.open, gas::delay_at(v, edge.open, difference));
   }
-  find_next_change(valves);
+  const double before = valves.next_of[i], after = next_of(valves[i]);
+  valves.next_of[i] = after;
+  // A command can also cancel the next change of all; only then all valves are searched.
+  if (after <= valves.next_change)
+    valves.next_change = after;
+  else if (before <= valves.next_change)
+    find_next_change(valves);
 }
 
-// A command can also cancel a pending change, so all valves are searched.
 template <int Most>
 void ValveBank<Most>::find_next_change(Valves& valves) const noexcept {
   double next = faults_.next(valves.faults);
-  for (std::size_t v = 0; v < taps_.size(); ++v) {
-    next = std::min(next, valves[v].shutter.next());
-    next = std::min(next, valves[v].next_set_at);
-  }
+  for (std::size_t v = 0; v < taps_.size(); ++v) next = std::min(next, valves.next_of[v]);
   valves.next_change = next;
+}
+
+// Moves valves without faults whose shutters jump. A command can also have moved a shutter back, so
+// all shares are renewed.
+template <int Most>
+void ValveBank<Most>::move_shutters(double t, Valves& valves) const noexcept {
+  valves.open_count = 0;
+  for (std::size_t v = 0; v < taps_.size(); ++v) {
+    typename Valves::Valve& valve = valves[v];
+    if (valves.next_of[v] <= t) {
+      valve.shutter.advance(t);
+      valves.next_of[v] = next_of(valve);
+    }
+    valve.share = air::open_share(0.0, fraction(v, t, valves));
+    if (valve.share > 0) add_open(v, valves);
+  }
+  find_next_change(valves);
+}
+
+// Adds a valve to the list of those that pass air.
+template <int Most>
+void ValveBank<Most>::add_open(std::size_t v, Valves& valves) noexcept {
+  const auto n = static_cast<std::size_t>(valves.open_count++);
+  valves.open[n] = {static_cast<int>(v), valves[v].share};
 }
 
 template <int Most>
 template <class Difference>
 void ValveBank<Most>::move(double t, const Difference& difference, Valves& valves) const noexcept {
+  if (only_shutters_) return move_shutters(t, valves);
   for (std::size_t v = 0; v < taps_.size(); ++v) {
     typename Valves::Valve& valve = valves[v];
     valve.shutter.advance(t);
@@ -236,8 +272,8 @@ void ValveBank<Most>::refresh(double t, Valves& valves) const noexcept {
     const double share =
         regulates(taps_[v].valve) ? 1.0 : air::open_share(seat, fraction(v, t, valves));
     valves[v].share = share;
-    if (share > 0)
-      valves.open[static_cast<std::size_t>(valves.open_count++)] = {static_cast<int>(v), share};
+    valves.next_of[v] = next_of(valves[v]);
+    if (share > 0) add_open(v, valves);
   }
   valves.leaking = let_through(valves.faults);
   valves.broken = is_broken(valves.faults);
