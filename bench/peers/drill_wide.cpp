@@ -53,7 +53,6 @@ class Machines {
     for (int i = 0; i < drill_muscles; ++i) {
       state_.mass[i] = mass;
       state_.in[i] = state_.out[i] = 0.0;
-      shares_.inlet[i] = shares_.exhaust[i] = 0.0;
       memory_.y[i] = each[0]->braids().exact_y(density);
       memory_.inverse_sigma[i] = 1.0 / density;
     }
@@ -62,9 +61,9 @@ class Machines {
   void command(const Switching& s) {
     const int lane = s.machine - first_;
     if (lane < 0 || lane >= W) return;
-    (s.exhaust ? shares_.exhaust : shares_.inlet)
-        .of[static_cast<std::size_t>(s.muscle)]
-        .set(lane, s.open ? 1.0 : 0.0);
+    const double share = s.open ? 1.0 : 0.0;
+    air_->set_shares(lane, s.muscle, s.exhaust ? shares_.inlet[s.muscle][lane] : share,
+                     s.exhaust ? share : shares_.exhaust[s.muscle][lane], shares_);
   }
 
   // RK4, as world/kernel/nodes.h has it.
@@ -115,7 +114,7 @@ class Machines {
   std::unique_ptr<Air> air_;
   Air::Ends ends_;
   Air::State state_, stage_;
-  Air::Shares shares_;
+  Air::Shares shares_{};
   Air::Memory memory_;
   Air::Evaluation evaluations_[4];
 };

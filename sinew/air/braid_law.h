@@ -89,17 +89,25 @@ template <class S>
           .friction_bound = units::select(friction > 0.0, friction, 0.0)};
 }
 
-// Returns the pressure and the tensions of a bundle. Also computes x, the density's deviation from
-// the reference, and y by the series; far(x, y) corrects y beyond the series' `reach`.
+// Writes x, the density's deviation from the reference, and y by the series. The result is valid
+// while |x| is within the series' reach.
+template <class S, class Series>
+[[gnu::always_inline]] inline void braid_root(const BraidConstants<S>& k, const BraidState<S>& at,
+                                              const Series& series, S& x, S& y) {
+  x = (at.mass * at.inverse_sigma) / braid_volume(k, at.length) - 1.0;
+  S power;
+  series.raise(x, power);
+  y = at.y_ref * power;
+}
+
+// Returns the pressure and the tensions of a bundle, with x and y; far(x, y) corrects y beyond the
+// series' `reach`.
 template <class S, class Series, class Far>
 [[gnu::always_inline]] inline BraidPull<S> braid_at(const BraidConstants<S>& k,
                                                     const BraidState<S>& at, const S& atmosphere,
                                                     const Series& series, const S& reach,
                                                     const Far& far, S& x, S& y) {
-  x = (at.mass * at.inverse_sigma) / braid_volume(k, at.length) - 1.0;
-  S power;
-  series.raise(x, power);
-  y = at.y_ref * power;
+  braid_root(k, at, series, x, y);
   if (const auto outside = (x > reach) | (x < -reach); units::any(outside)) far(outside, x, y);
   return braid_pull(k, atmosphere, at.length, at.rate, y);
 }

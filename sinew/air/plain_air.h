@@ -5,6 +5,9 @@
 // Valves, commands and failures are handled by each machine's own network, whose valves supply the
 // open shares until the next node. Rare operations of a lane (a power, the sealed stiffness) are
 // also done by its own network.
+//
+// An evaluation has three loops over the muscles (y, pulls, flows): each is short, so that the
+// processor overlaps the divisions and roots of several muscles.
 #pragma once
 
 #include <array>
@@ -35,6 +38,10 @@ class PlainAir {
   };
   struct Shares {
     Lanes inlet, exhaust;  // open shares of the valves' areas [-]
+    // For each muscle, the law of each machine's open valve, if only one is open, and the machines
+    // that fill or empty it, a bit each. Set by set_shares().
+    std::array<gas::FlowConstantsOf<S>, Most> open;
+    std::array<std::uint32_t, Most> fills, empties;
   };
   using Valves = Shares;
   using Memory = Reference<Most, S>;
@@ -63,12 +70,23 @@ class PlainAir {
                         const Shares& shares, const Memory& memory,
                         const Evaluation& at_node) const noexcept;
 
-  // Copies the open shares of one machine's valves.
+  // Copy the open shares of one machine's valves: of all its muscles, of those whose shares differ,
+  // or of one muscle.
   void set_shares(int lane, const AirValves<Most>& valves, Shares& shares) const noexcept;
+  void update_shares(int lane, const AirValves<Most>& valves, Shares& shares) const noexcept;
+  void set_shares(int lane, int muscle, double inlet, double exhaust,
+                  Shares& shares) const noexcept;
 
-  // Evaluates the laws of all machines.
-  void evaluate(const S& t, const Ends& ends, const State& state, const Shares& shares,
-                const Memory& memory, Evaluation& out, std::uint64_t ahead = 0) const noexcept;
+  // Evaluates the laws of all machines. The second one is for stages of a step and writes only
+  // tensions and flows.
+  void evaluate(const S&, const Ends& ends, const State& state, const Shares& shares,
+                const Memory& memory, Evaluation& out, std::uint64_t = 0) const noexcept {
+    evaluate_muscles<true>(ends, state, shares, memory, out);
+  }
+  void evaluate_stage(const Ends& ends, const State& state, const Shares& shares,
+                      const Memory& memory, Evaluation& out) const noexcept {
+    evaluate_muscles<false>(ends, state, shares, memory, out);
+  }
 
   // Updates the references of the machines in `where` at their nodes, from the evaluation there.
   // Returns for each the first muscle whose density is not valid, or -1.
@@ -91,78 +109,35 @@ class PlainAir {
     BraidConstants<T> braid;
     gas::FlowConstantsOf<T> inlet, exhaust;
   };
-  // Values of one machine, or of all, that its muscles have in common.
-  template <class T>
-  struct SharedValues {
-    gas::PowerSeriesOf<T> series;
-    T atmosphere = 0, supply_y = 0;
-  };
-  // Inputs of a muscle's evaluation, and its results.
-  template <class T>
-  struct MuscleInput : BraidState<T> {
-    T inlet, exhaust;
-  };
-  template <class T>
-  struct MuscleOutput {
-    BraidPull<T> pull;
-    T drift, inflow, outflow;
+  struct Flows {
+    S in = 0, out = 0;  // [kg/s]
   };
 
-  // Evaluates one muscle. far(x, y) writes y of a density outside the series' range; finish(pull)
-  // adds the friction that the lanes do not have.
-  template <class T, class Far, class Finish>
-  [[gnu::always_inline]] static MuscleOutput<T> evaluate_muscle(const SharedValues<T>& shared,
-                                                                const Cell<T>& cell,
-                                                                const MuscleInput<T>& at,
-                                                                const Far& far,
-                                                                const Finish& finish) {
-    T x, y;
-    const BraidPull<T> pull = braid_at<T>(cell.braid, at, shared.atmosphere, shared.series,
-                                          gas::PowerSeries::reach, far, x, y);
-    MuscleOutput<T> out{pull, x, 0, 0};
-    finish(out.pull);
-    flow(shared, cell, at, y, out);
-    return out;
+  static Mask beyond_series(const S& x) {
+    return (x > gas::PowerSeries::reach) | (x < -gas::PowerSeries::reach);
   }
-
-  // If no machine both fills and empties this muscle, one flow evaluation serves all.
-  template <class T>
-  [[gnu::always_inline]] static void flow(const SharedValues<T>& shared, const Cell<T>& cell,
-                                          const MuscleInput<T>& at, const T& y,
-                                          MuscleOutput<T>& out) {
-    const auto fills = at.inlet > 0.0, empties = at.exhaust > 0.0;
-    const bool some_fill = units::any(fills), some_empty = units::any(empties);
-    if (some_fill && some_empty && !units::any(fills & empties)) {
-      const T size =
-          units::select(fills, at.inlet, at.exhaust) *
-          gas::flow_y(gas::select(fills, cell.inlet, cell.exhaust),
-                      units::select(fills, shared.supply_y, y), units::select(fills, y, 1.0));
-      out.inflow = units::select(fills, size, 0.0);
-      out.outflow = units::select(empties, size, 0.0);
-      return;
-    }
-    if (some_fill)
-      out.inflow =
-          units::select(fills, at.inlet * gas::flow_y(cell.inlet, shared.supply_y, y), 0.0);
-    if (some_empty)
-      out.outflow = units::select(empties, at.exhaust * gas::flow_y(cell.exhaust, y, 1.0), 0.0);
+  template <bool whole>
+  void evaluate_muscles(const Ends& ends, const State& state, const Shares& shares,
+                        const Memory& memory, Evaluation& out) const noexcept;
+  Flows flows(int i, const Shares& shares, const S& y) const noexcept;
+  double root(int lane, int i, const BraidState<double>& at) const noexcept;
+  void far_roots(const S& x, const S& inverse_sigma, S& y) const noexcept;
+  void finish_friction(int i, const S& length, const S& rate, BraidPull<S>& pull) const noexcept;
+  double sealed_bound(int lane, int i, double length, double pressure) const noexcept {
+    return each_[static_cast<std::size_t>(lane)]->braids().sealed_bound(i, length, pressure);
   }
-
-  void far_roots(int i, const Mask& outside, const S& drift, const Memory& memory,
-                 S& y) const noexcept;
   template <class T, class M>
   static void apply_sliding_friction(const M& loose, const T& rate, BraidPull<T>& pull);
-  void finish_friction(int i, const Ends& ends, BraidPull<S>& pull) const noexcept;
-  void finish_friction(int lane, int i, const MuscleInput<double>& at,
-                       BraidPull<double>& pull) const noexcept;
 
   int size_ = 0;
   std::array<const Network*, W> each_;
-  SharedValues<S> shared_;
+  // Values that the muscles of a machine have in common.
+  gas::PowerSeriesOf<S> series_;
+  S atmosphere_ = 0, supply_y_ = 0;
   std::array<Cell<S>, Most> cells_;
-  std::array<Mask, Most> sealed_, loose_;  // bounded by the sealed stiffness; does not stick
-  // Values of each machine alone.
-  std::array<SharedValues<double>, W> shared_of_each_;
+  std::array<Mask, Most> sealed_, loose_;    // bounded by the sealed stiffness; does not stick
+  std::array<bool, Most> is_rare_friction_;  // either of them, for any machine
+  // The constants of each machine alone.
   std::array<std::array<Cell<double>, Most>, W> alone_;
 };
 
@@ -173,12 +148,11 @@ PlainAir<Most, W>::PlainAir(const std::array<const Network*, W>& each)
   S exponent;
   for (std::size_t k = 0; k < W; ++k) {
     const int lane = static_cast<int>(k);
-    shared_of_each_[k] = {each[k]->braids().series(), each[k]->atmosphere(), each[k]->supply_y()};
-    exponent.set(lane, shared_of_each_[k].series.exponent());
-    shared_.atmosphere.set(lane, shared_of_each_[k].atmosphere);
-    shared_.supply_y.set(lane, shared_of_each_[k].supply_y);
+    exponent.set(lane, each[k]->braids().series().exponent());
+    atmosphere_.set(lane, each[k]->atmosphere());
+    supply_y_.set(lane, each[k]->supply_y());
   }
-  shared_.series = gas::PowerSeriesOf<S>(exponent);
+  series_ = gas::PowerSeriesOf<S>(exponent);
 
   for (int i = 0; i < size_; ++i) {
     const auto m = static_cast<std::size_t>(i);
@@ -190,6 +164,7 @@ PlainAir<Most, W>::PlainAir(const std::array<const Network*, W>& each)
       sealed_[m].set(lane, laws.bound_by_sealed(i));
       loose_[m].set(lane, !laws.sticks(i));
     }
+    is_rare_friction_[m] = units::any(sealed_[m] | loose_[m]);
     cells_[m] = units::side_by_side<Cell<S>>(each_cell);
   }
 }
@@ -199,36 +174,106 @@ void PlainAir<Most, W>::set_shares(int lane, const AirValves<Most>& valves,
                                    Shares& shares) const noexcept {
   for (int i = 0; i < size_; ++i) {
     const auto inlet = static_cast<std::size_t>(2 * i);
-    shares.inlet[i].set(lane, valves[inlet].share);
-    shares.exhaust[i].set(lane, valves[inlet + 1].share);
+    set_shares(lane, i, valves[inlet].share, valves[inlet + 1].share, shares);
   }
 }
 
 template <int Most, int W>
-void PlainAir<Most, W>::evaluate(const S&, const Ends& ends, const State& state,
-                                 const Shares& shares, const Memory& memory, Evaluation& out,
-                                 std::uint64_t) const noexcept {
+void PlainAir<Most, W>::update_shares(int lane, const AirValves<Most>& valves,
+                                      Shares& shares) const noexcept {
+  for (int i = 0; i < size_; ++i) {
+    const auto v = static_cast<std::size_t>(2 * i);
+    const double inlet = valves[v].share, exhaust = valves[v + 1].share;
+    if (inlet != shares.inlet.of[v / 2][lane] || exhaust != shares.exhaust.of[v / 2][lane])
+      set_shares(lane, i, inlet, exhaust, shares);
+  }
+}
+
+template <int Most, int W>
+void PlainAir<Most, W>::set_shares(int lane, int muscle, double inlet, double exhaust,
+                                   Shares& shares) const noexcept {
+  const auto m = static_cast<std::size_t>(muscle);
+  const std::uint32_t bit = 1u << lane;
+  shares.inlet[muscle].set(lane, inlet);
+  shares.exhaust[muscle].set(lane, exhaust);
+  shares.fills[m] = inlet > 0 ? shares.fills[m] | bit : shares.fills[m] & ~bit;
+  shares.empties[m] = exhaust > 0 ? shares.empties[m] | bit : shares.empties[m] & ~bit;
+  const Cell<double>& cell = alone_[static_cast<std::size_t>(lane)][m];
+  units::put_lane(inlet > 0 ? cell.inlet : cell.exhaust, lane, shares.open[m]);
+}
+
+template <int Most, int W>
+template <bool whole>
+void PlainAir<Most, W>::evaluate_muscles(const Ends& ends, const State& state, const Shares& shares,
+                                         const Memory& memory, Evaluation& out) const noexcept {
+  std::array<S, Most> x, y;
+  Mask outside = S(0.0) > 0.0;
   for (int i = 0; i < size_; ++i) {
     const auto m = static_cast<std::size_t>(i);
-    const MuscleInput<S> at{
-        {ends.length[i], ends.rate[i], state.mass[i], memory.y[i], memory.inverse_sigma[i]},
-        shares.inlet[i],
-        shares.exhaust[i]};
-    const auto far = [&](const Mask& outside, const S& x, S& y) {
-      far_roots(i, outside, x, memory, y);
-    };
-    const auto finish = [&](BraidPull<S>& pull) {
-      if (units::any(sealed_[m] | loose_[m])) finish_friction(i, ends, pull);
-    };
-    const MuscleOutput<S> result = evaluate_muscle<S>(shared_, cells_[m], at, far, finish);
-    out.drift[i] = result.drift;
-    out.pressure[i] = result.pull.pressure;
-    out.tension[i] = result.pull.tension;
-    out.clamped[i] = result.pull.clamped;
-    out.friction_bound[i] = result.pull.friction_bound;
-    out.inflow[i] = result.inflow;
-    out.outflow[i] = result.outflow;
+    const BraidState<S> at{ends.length[i], ends.rate[i], state.mass[i], memory.y[i],
+                           memory.inverse_sigma[i]};
+    braid_root(cells_[m].braid, at, series_, x[m], y[m]);
+    outside = outside | beyond_series(x[m]);
   }
+  if (units::any(outside))
+    for (int i = 0; i < size_; ++i) {
+      const auto m = static_cast<std::size_t>(i);
+      far_roots(x[m], memory.inverse_sigma[i], y[m]);
+    }
+
+  for (int i = 0; i < size_; ++i) {
+    const auto m = static_cast<std::size_t>(i);
+    const S length = ends.length[i], rate = ends.rate[i];
+    BraidPull<S> pull = braid_pull(cells_[m].braid, atmosphere_, length, rate, y[m]);
+    if (is_rare_friction_[m]) finish_friction(i, length, rate, pull);
+    out.tension[i] = pull.tension;
+    if constexpr (whole) {
+      out.drift[i] = x[m];
+      out.pressure[i] = pull.pressure;
+      out.clamped[i] = pull.clamped;
+      out.friction_bound[i] = pull.friction_bound;
+    }
+  }
+
+  for (int i = 0; i < size_; ++i) {
+    const Flows flow = flows(i, shares, y[static_cast<std::size_t>(i)]);
+    out.inflow[i] = flow.in;
+    out.outflow[i] = flow.out;
+  }
+}
+
+// Returns the flows of a muscle. If no machine both fills and empties it, one evaluation serves
+// all.
+template <int Most, int W>
+auto PlainAir<Most, W>::flows(int i, const Shares& shares, const S& y) const noexcept -> Flows {
+  const auto m = static_cast<std::size_t>(i);
+  const std::uint32_t some_fill = shares.fills[m], some_empty = shares.empties[m];
+  Flows out;
+  if ((some_fill | some_empty) == 0) return out;
+  const S inlet = shares.inlet[i], exhaust = shares.exhaust[i];
+  const Mask fills = inlet > 0.0, empties = exhaust > 0.0;
+  if ((some_fill & some_empty) == 0) {
+    const S size = units::select(fills, inlet, exhaust) *
+                   gas::flow_y(shares.open[m], units::select(fills, supply_y_, y),
+                               units::select(fills, y, 1.0));
+    out.in = units::select(fills, size, 0.0);
+    out.out = units::select(empties, size, 0.0);
+    return out;
+  }
+  const Cell<S>& cell = cells_[m];
+  out.in = units::select(fills, inlet * gas::flow_y(cell.inlet, supply_y_, y), 0.0);
+  out.out = units::select(empties, exhaust * gas::flow_y(cell.exhaust, y, 1.0), 0.0);
+  return out;
+}
+
+// Returns y of the muscle of one machine.
+template <int Most, int W>
+double PlainAir<Most, W>::root(int lane, int i, const BraidState<double>& at) const noexcept {
+  const auto k = static_cast<std::size_t>(lane), m = static_cast<std::size_t>(i);
+  double x, y;
+  braid_root(alone_[k][m].braid, at, each_[k]->braids().series(), x, y);
+  const bool outside = x > gas::PowerSeries::reach || x < -gas::PowerSeries::reach;
+  return outside ? each_[k]->braids().exact_y((x + 1.0) / at.inverse_sigma) : y;
 }
 
 template <int Most, int W>
@@ -236,32 +281,33 @@ auto PlainAir<Most, W>::preview(int lane, int i, double length, double rate, dou
                                 const State& state, const Shares& shares, const Memory& memory,
                                 const Evaluation& at_node) const noexcept -> MusclePreview {
   const auto k = static_cast<std::size_t>(lane), m = static_cast<std::size_t>(i);
-  const double mass = state.mass[i][lane];
-  MuscleInput<double> at{{length, rate, mass, memory.y[i][lane], memory.inverse_sigma[i][lane]},
-                         shares.inlet[i][lane],
-                         shares.exhaust[i][lane]};
-  const auto far = [&](bool, double x, double& y) {
-    y = each_[k]->braids().exact_y((x + 1.0) / at.inverse_sigma);
-  };
-  const auto finish = [&](BraidPull<double>& pull) { finish_friction(lane, i, at, pull); };
-  const auto evaluate_now = [&] {
-    return evaluate_muscle<double>(shared_of_each_[k], alone_[k][m], at, far, finish);
-  };
-  if (at.inlet > 0 || at.exhaust > 0) {
-    const double in = at_node.inflow[i][lane], out = at_node.outflow[i][lane], half = 0.5 * h;
+  const Cell<double>& cell = alone_[k][m];
+  BraidState<double> at{length, rate, state.mass[i][lane], memory.y[i][lane],
+                        memory.inverse_sigma[i][lane]};
+  const double inlet = shares.inlet[i][lane], exhaust = shares.exhaust[i][lane];
+  if (inlet > 0 || exhaust > 0) {
+    const double mass = at.mass, half = 0.5 * h;
+    const double in = at_node.inflow[i][lane], out = at_node.outflow[i][lane];
     at.mass = mass + h * (in - out);
-    const MuscleOutput<double> then = evaluate_now();
-    at.mass = mass + (half * (in + then.inflow) - half * (out + then.outflow));
+    const double y = root(lane, i, at);
+    const double then_in =
+        inlet > 0 ? inlet * gas::flow_y(cell.inlet, each_[k]->supply_y(), y) : 0.0;
+    const double then_out = exhaust > 0 ? exhaust * gas::flow_y(cell.exhaust, y, 1.0) : 0.0;
+    at.mass = mass + (half * (in + then_in) - half * (out + then_out));
   }
-  const MuscleOutput<double> result = evaluate_now();
-  return {result.pull.pressure, result.pull.tension};
+  BraidPull<double> pull =
+      braid_pull(cell.braid, each_[k]->atmosphere(), length, rate, root(lane, i, at));
+  if (sealed_[m][lane]) pull.friction_bound = sealed_bound(lane, i, length, pull.pressure);
+  apply_sliding_friction(loose_[m][lane], rate, pull);
+  return {pull.pressure, pull.tension};
 }
 
 // Writes y of the machines whose density is outside the series' range.
 template <int Most, int W>
-void PlainAir<Most, W>::far_roots(int i, const Mask& outside, const S& drift, const Memory& memory,
-                                  S& y) const noexcept {
-  const S density = (drift + 1.0) / memory.inverse_sigma[i];
+void PlainAir<Most, W>::far_roots(const S& x, const S& inverse_sigma, S& y) const noexcept {
+  const Mask outside = beyond_series(x);
+  if (!units::any(outside)) return;
+  const S density = (x + 1.0) / inverse_sigma;
   for (int k = 0; k < W; ++k)
     if (outside[k]) y.set(k, each_[static_cast<std::size_t>(k)]->braids().exact_y(density[k]));
 }
@@ -269,24 +315,12 @@ void PlainAir<Most, W>::far_roots(int i, const Mask& outside, const S& drift, co
 // Completes the friction for Loss::Scale::sealed, and with sign(v), [33] as printed, for
 // actuators that do not stick.
 template <int Most, int W>
-void PlainAir<Most, W>::finish_friction(int i, const Ends& ends,
+void PlainAir<Most, W>::finish_friction(int i, const S& length, const S& rate,
                                         BraidPull<S>& pull) const noexcept {
   const auto m = static_cast<std::size_t>(i);
   for (int k = 0; k < W; ++k)
-    if (sealed_[m][k])
-      pull.friction_bound.set(k, each_[static_cast<std::size_t>(k)]->braids().sealed_bound(
-                                     i, ends.length[i][k], pull.pressure[k]));
-  apply_sliding_friction(loose_[m], ends.rate[i], pull);
-}
-
-template <int Most, int W>
-void PlainAir<Most, W>::finish_friction(int lane, int i, const MuscleInput<double>& at,
-                                        BraidPull<double>& pull) const noexcept {
-  const auto m = static_cast<std::size_t>(i);
-  if (sealed_[m][lane])
-    pull.friction_bound =
-        each_[static_cast<std::size_t>(lane)]->braids().sealed_bound(i, at.length, pull.pressure);
-  apply_sliding_friction(loose_[m][lane], at.rate, pull);
+    if (sealed_[m][k]) pull.friction_bound.set(k, sealed_bound(k, i, length[k], pull.pressure[k]));
+  apply_sliding_friction(loose_[m], rate, pull);
 }
 
 template <int Most, int W>

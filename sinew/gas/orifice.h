@@ -180,6 +180,14 @@ inline FlowConstantsOf<S> select(const Mask& mask, const FlowConstantsOf<S>& a,
           units::select(mask, a.iso, b.iso)};
 }
 
+// Returns whether a part of the law has to be computed: always for a double, so that loops
+// vectorise; for a pack, if a lane uses it.
+constexpr bool needed(bool) { return true; }
+template <int W>
+[[gnu::always_inline]] inline bool needed(const units::PackMask<W>& mask) {
+  return units::any(mask);
+}
+
 // Returns the flow from a to b, given y at both ports [kg/s]. Uses only + - x sqrt and selections,
 // with one root, so that loops over lanes with constants in arrays vectorise, and every lane has
 // the scalar's bits.
@@ -188,27 +196,32 @@ inline S flow_y(const FlowConstantsOf<S>& c, const std::type_identity_t<S>& y_a,
                 const std::type_identity_t<S>& y_b) {
   const S up = units::select(y_a > y_b, y_a, y_b);
   const S down = units::select(y_a > y_b, y_b, y_a);
-
-  // P/P_atm of both ports.
-  const S up2 = up * up, down2 = down * down;
-  const S p_up = up2 * up2 * up2 * up, p_down = down2 * down2 * down2 * down;
+  const auto iso = c.iso > 0.0, near = down > c.linear_from * up;
 
   // Orifice: d^5 u sqrt(u^2 - d^2).
-  const S limit = c.choke * up;
+  const S up2 = up * up, limit = c.choke * up;
   const S d = units::select(down > limit, down, limit);
   const S d2 = d * d;
+  S factor = d2 * d2 * d * up, inside = up2 - d2;
+
+  S p_up = 0, p_down = 0;  // P/P_atm of both ports
+  if (needed(iso | near)) {
+    const S down2 = down * down;
+    p_up = up2 * up2 * up2 * up;
+    p_down = down2 * down2 * down2 * down;
+  }
 
   // ISO 6358: sqrt(p_up^2 - ((p_down - b_crit p_up)/(1 - b_crit))^2), p = y^7.
-  const S over = p_down - c.choke * p_up;
-  const S share = units::select(over > 0.0, over, 0.0) * c.spread;
+  if (needed(iso)) {
+    const S over = p_down - c.choke * p_up;
+    const S share = units::select(over > 0.0, over, 0.0) * c.spread;
+    factor = units::select(iso, 1.0, factor);
+    inside = units::select(iso, p_up * p_up - share * share, inside);
+  }
 
-  const S factor = units::select(c.iso > 0.0, 1.0, d2 * d2 * d * up);
-  const S inside = units::select(c.iso > 0.0, p_up * p_up - share * share, up2 - d2);
   const S gain = units::select(down > limit, c.gain, c.choked_gain);
-  const S free = gain * factor * units::sqrt(units::select(inside > 0.0, inside, 0.0));
-  const S linear = c.linear_gain * (p_up - p_down);
-
-  const S size = units::select(down > c.linear_from * up, linear, free);
+  S size = gain * factor * units::sqrt(units::select(inside > 0.0, inside, 0.0));
+  if (needed(near)) size = units::select(near, c.linear_gain * (p_up - p_down), size);
   return units::select(y_a >= y_b, size, -size);
 }
 

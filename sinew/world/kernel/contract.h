@@ -59,7 +59,9 @@
 // Air (air/network.h) has State, which is integrated; Valves and Memory, which are constant until
 // the next node; Evaluation, the result of one evaluation; QuickMasses, the parts that are
 // integrated through a step ahead of the body. All data that last from node to node are trivially
-// copyable.
+// copyable. Air that needs fewer results in the stages of a step (EvaluatesStages) has
+//
+//   evaluate_stage(ends, state, valves, memory, evaluation)   tensions and flows only
 #pragma once
 
 #include <concepts>
@@ -164,6 +166,15 @@ concept IsAirOf = IsMechanism<M> && std::is_trivially_copyable_v<typename A::Sta
   { air.flowing(valves) } -> std::same_as<bool>;
   { air.valves() } -> std::same_as<int>;
   { valves.next_change } -> std::convertible_to<double>;
+};
+
+// Air with a shorter evaluation for the stages of a step.
+template <class A>
+concept EvaluatesStages = requires(const A& air, const typename A::Ends& ends,
+                                   const typename A::State& state, const typename A::Valves& valves,
+                                   const typename A::Memory& memory,
+                                   typename A::Evaluation& evaluation) {
+  air.evaluate_stage(ends, state, valves, memory, evaluation);
 };
 
 }  // namespace sinew::plant

@@ -73,7 +73,12 @@ class Nodes {
   void evaluate(const S& t, const Moving& state, const typename A::Valves& valves,
                 const typename A::Memory& memory, const typename M::Forces& held,
                 Evaluation& evaluation, std::uint64_t ahead = 0) const noexcept {
-    evaluate_air(t, state, valves, memory, evaluation, ahead);
+    if constexpr (EvaluatesStages<A>) {
+      mechanism_.route(t, state.motion, evaluation.ends, evaluation.arms);
+      air_.evaluate_stage(evaluation.ends, state.air, valves, memory, evaluation.air);
+    } else {
+      evaluate_air(t, state, valves, memory, evaluation, ahead);
+    }
     const typename M::Pose pose = mechanism_.pose(t, state.motion);
     mechanism_.load(pose, state.motion, evaluation.arms, evaluation.air, evaluation.load);
     evaluation.acceleration = mechanism_.accelerate(pose, state.motion, evaluation.load, held);
