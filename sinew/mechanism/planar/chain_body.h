@@ -146,10 +146,11 @@ class Contacts {
   // and so do the slips. Solving for dF adds a rank-one term to W; without it the joints would slip
   // a little where they should stick, and the walk would converge with the first order only.
   Forces hold(const S& h, const Forces& last) const {
-    FrictionProblem<count, S> p = problem_;
+    FrictionProblem<count, S> p;
+    p.bound = problem_.bound;
     for (int c = 0; c < count; ++c) {
-      p.slip[c] += h * slip_rate_[c];
-      for (int d = 0; d < count; ++d) p.response[c][d] *= h;
+      p.slip[c] = problem_.slip[c] + h * slip_rate_[c];
+      for (int d = 0; d < count; ++d) p.response[c][d] = problem_.response[c][d] * h;
     }
     if (const auto stands = normal_.force > 0.0; units::any(stands)) add_normal(h, stands, p);
     return solve_friction<count>(p, last);
@@ -403,9 +404,12 @@ class ChainBody {
 
   // Moves by h under a constant acceleration.
   void extrapolate(Motion& m, const S& h, const Acceleration& a) const noexcept {
-    move(m, Motion(m), h, Motion(m), a);
-    m.x += 0.5 * h * h * a.x;
-    for (int i = 0; i < N; ++i) m.angle[i] += 0.5 * h * h * a.angle[i];
+    m.x = m.x + h * m.x_rate + 0.5 * h * h * a.x;
+    m.x_rate += h * a.x;
+    for (int i = 0; i < N; ++i) {
+      m.angle[i] = m.angle[i] + h * m.rate[i] + 0.5 * h * h * a.angle[i];
+      m.rate[i] += h * a.angle[i];
+    }
   }
 
   // Applies RK4's weighted mean of four stages.
