@@ -17,21 +17,6 @@ double noise(std::uint64_t seed, int sensor, signals::Tick tick) {
   return static_cast<double>(sum) / 65536.0 + 12.0 * 0.5 / 65536.0 - 6.0;
 }
 
-std::uint16_t counts(const Sensor& sensor, const Converter& converter, double quantity,
-                     double noise) {
-  const double per_volt = converter.counts_per_volt();
-  double value = sensor.at_rest + sensor.noise * noise;
-  using Kind = Sensor::Kind;
-  // A potentiometer's scale is given per volt, a transducer's in volts.
-  if (sensor.kind == Kind::angle || sensor.kind == Kind::cylinder)
-    value += quantity / sensor.scale * per_volt;
-  else if (sensor.kind != Kind::fixed)
-    value += quantity * sensor.scale * per_volt;
-  const double top = converter.top();
-  const double bounded = value < 0 ? 0.0 : value > top ? top : value;
-  return static_cast<std::uint16_t>(bounded + 0.5);
-}
-
 SensorLine own_tension(const Sensor& sensor, const Converter& converter) {
   return {.count_at_zero = sensor.assumed_at_rest,
           .counts_per_unit = sensor.scale * converter.counts_per_volt()};

@@ -13,10 +13,45 @@ namespace sinew::robot {
 // minus six, from the 16-bit pieces of three 64-bit hashes; bounded at 6.
 double noise(std::uint64_t seed, int sensor, signals::Tick tick);
 
-// Returns the converter's counts for the angle [rad] or tension [N] at its input: offset, noise,
-// rounding to the nearest count, and its two ends (4.1, 4.4: tension clips at 29.4 lb).
-std::uint16_t counts(const Sensor& sensor, const Converter& converter, double quantity,
-                     double noise);
+// A sensor's conversion, with its constants.
+class SensorCounts {
+ public:
+  SensorCounts(const Sensor& sensor, const Converter& converter)
+      : at_rest_(sensor.at_rest),
+        noise_(sensor.noise),
+        scale_(sensor.scale),
+        counts_per_volt_(converter.counts_per_volt()),
+        top_(converter.top()),
+        // A potentiometer's scale is given per volt, a transducer's in volts.
+        divides_(sensor.kind == Sensor::Kind::angle || sensor.kind == Sensor::Kind::cylinder),
+        constant_(sensor.kind == Sensor::Kind::fixed) {}
+
+  bool noisy() const noexcept { return noise_ > 0; }
+  // Returns the converter's counts for the angle [rad] or tension [N] at its input: offset, noise
+  // of unit standard deviation, rounding to the nearest count, and its two ends (4.1, 4.4: tension
+  // clips at 29.4 lb).
+  std::uint16_t counts(double quantity, double unit_noise) const noexcept {
+    double value = at_rest_ + noise_ * unit_noise;
+    if (divides_)
+      value += quantity / scale_ * counts_per_volt_;
+    else if (!constant_)
+      value += quantity * scale_ * counts_per_volt_;
+    const double bounded = value < 0 ? 0.0 : value > top_ ? top_ : value;
+    return static_cast<std::uint16_t>(bounded + 0.5);
+  }
+
+ private:
+  double at_rest_, noise_;  // [count]
+  double scale_;            // as the sensor's
+  double counts_per_volt_, top_;
+  bool divides_, constant_;
+};
+
+// Returns the counts of a sensor that is converted once.
+inline std::uint16_t counts(const Sensor& sensor, const Converter& converter, double quantity,
+                            double noise) {
+  return SensorCounts(sensor, converter).counts(quantity, noise);
+}
 
 // Linear relation between a sensor's quantity and its counts.
 struct SensorLine {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "sinew/air/lanes.h"
 #include "sinew/mechanism/planar/setup.h"
@@ -19,32 +20,32 @@ class PlanarSenses {
   using Truth = plant::Truth;
 
   // Finds the joint or muscle of each sensor.
-  explicit PlanarSenses(const Setup& setup)
-      : robot_(setup.robot), atmosphere_(setup.air.atmosphere), seed_(setup.seed) {
+  explicit PlanarSenses(const Setup& setup) : atmosphere_(setup.air.atmosphere), seed_(setup.seed) {
     using Kind = robot::Sensor::Kind;
-    for (std::size_t s = 0; s < robot_.sensors.size() && s < source_.size(); ++s) {
-      const robot::Sensor& sensor = robot_.sensors[s];
+    const robot::Robot& robot = setup.robot;
+    for (const robot::Sensor& sensor : robot.sensors) {
       const bool joint = sensor.kind == Kind::angle || sensor.kind == Kind::velocity;
-      source_[s] =
-          joint ? robot::find_joint(robot_, sensor.of) : robot::find_muscle(robot_, sensor.of);
+      const int of =
+          joint ? robot::find_joint(robot, sensor.of) : robot::find_muscle(robot, sensor.of);
+      const double rest =
+          joint && of >= 0 ? robot.joints[static_cast<std::size_t>(of)].rest_angle : 0.0;
+      sensors_.push_back({robot::SensorCounts(sensor, robot.converter), sensor.kind, of, rest});
     }
   }
 
   // Returns the number of sensors.
-  std::size_t channels() const noexcept { return robot_.sensors.size(); }
+  std::size_t channels() const noexcept { return sensors_.size(); }
 
   // Returns the quantity that the sensor measures at t, in SI; 0 for a fixed source.
   template <class World>
   double quantity(World& world, std::size_t index, double t) const noexcept {
     using Kind = robot::Sensor::Kind;
-    const Kind kind = robot_.sensors[index].kind;
-    const int of = source_[index];
+    const auto& [counts, kind, of, rest] = sensors_[index];
     if (kind == Kind::fixed || (of < 0 && kind != Kind::cylinder)) return 0;
     world.advance(t);
     const auto& mechanism = world.mechanism();
     const auto j = static_cast<std::size_t>(of < 0 ? 0 : of);
-    if (kind == Kind::angle)
-      return mechanism.joint_angle(world.preview_motion(t), j) - robot_.joints[j].rest_angle;
+    if (kind == Kind::angle) return mechanism.joint_angle(world.preview_motion(t), j) - rest;
     if (kind == Kind::velocity) return mechanism.joint_rate(world.preview_motion(t), j);
     if (kind == Kind::cylinder) return mechanism.lift(world.preview_motion(t));
     const auto p = world.preview_muscle(t, of);
@@ -55,10 +56,10 @@ class PlanarSenses {
 
   // Returns the counts of the converter for a value.
   std::uint16_t counts(std::size_t index, double value, signals::Tick sampled) const noexcept {
-    const robot::Sensor& sensor = robot_.sensors[index];
+    const robot::SensorCounts& sensor = sensors_[index].counts;
     const auto channel = static_cast<std::uint8_t>(index);
-    const double added_noise = sensor.noise > 0 ? robot::noise(seed_, channel, sampled) : 0.0;
-    return robot::counts(sensor, robot_.converter, value, added_noise);
+    const double added_noise = sensor.noisy() ? robot::noise(seed_, channel, sampled) : 0.0;
+    return sensor.counts(value, added_noise);
   }
 
   // Returns the true values at t.
@@ -115,10 +116,15 @@ class PlanarSenses {
     return f < 0 ? 0.0 : f;  // a NaN stays a NaN
   }
 
-  robot::Robot robot_;
-  double atmosphere_ = 0;  // [Pa]
+  struct Source {
+    robot::SensorCounts counts;
+    robot::Sensor::Kind kind;
+    int of;       // its joint or muscle; -1: none
+    double rest;  // rest angle of the joint [rad]
+  };
+  std::vector<Source> sensors_;  // per channel
+  double atmosphere_ = 0;        // [Pa]
   std::uint64_t seed_ = 1;
-  std::array<int, 256> source_{};  // per channel, its joint or muscle
 };
 
 // Common parts for at most M muscles.
