@@ -24,7 +24,10 @@ JointController::JointController(const JointControllerConfig& config) noexcept
     : config_(config), command_(rest_command(config)) {
   find_partners();
   find_next_edge();
-  for (std::size_t j = 0; j < config_.joints; ++j) timed_ |= is_timed(config_.joint[j].kind);
+  for (std::size_t j = 0; j < config_.joints; ++j) {
+    timed_ |= is_timed(config_.joint[j].kind);
+    regulated_ |= config_.joint[j].kind == JointKind::regulated;
+  }
   if (config.startup_vent > 0)
     vent(0, config.startup_vent, Phase::startup, Phase::running);
   else
@@ -269,7 +272,7 @@ std::span<const Edge> JointController::edges(Tick t) noexcept {
   out_count_ = 0;
   if (next_edge_ <= t) {
     collect_edges(t);
-    collect_levels(t);
+    if (regulated_) collect_levels(t);
     for (std::size_t j = 0; j < config_.joints; ++j)
       if (next_of_[j] <= t) find_next_edge_of(j);
     find_first_edge();

@@ -58,6 +58,9 @@ class JointController {
   // returned once; the span is valid until the next call.
   std::span<const signals::Edge> edges(signals::Tick t) noexcept;
 
+  // Returns the tick of the first edge that edges() has not returned yet, or PulseTrain::never.
+  signals::Tick next_edge() const noexcept { return next_edge_; }
+
   // Returns the conversion to read at tick t, or nullptr.
   const signals::Conversion* due(signals::Tick t) noexcept;
   // Returns the conversion that the hardware starts in this tick and that is read later, or
@@ -163,7 +166,7 @@ class JointController {
   signals::Tick opened_ = -1;  // period whose openings were scheduled last
 
   // Valves
-  bool timed_ = false;  // at least one joint is timed
+  bool timed_ = false, regulated_ = false;  // at least one joint is
   std::array<std::array<Partner, 2>, max_joints> partner_;
   std::array<JointValves, max_joints> valves_;
   std::array<std::array<PendingLevel, 2>, max_joints> levels_;

@@ -92,6 +92,12 @@ class Supervisor {
   bool starts_period(signals::Tick t) noexcept;
   void command(const Command& command) noexcept;
   std::span<const signals::Edge> edges(signals::Tick t) noexcept;
+  // Returns whether edges(t) will certainly return any, unless there is a command, a shutdown or a
+  // late tick before.
+  bool drives_at(signals::Tick t) const noexcept {
+    return controller_.next_edge() <= t && !supervised_.holding &&
+           bad_commands_ < limits_.vent_commands;
+  }
   const signals::Conversion* due(signals::Tick t) noexcept;
   const signals::Conversion* begins(signals::Tick t) const noexcept {
     return controller_.begins(t);
