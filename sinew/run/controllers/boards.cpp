@@ -57,9 +57,7 @@ control::Trip Board::trip() const noexcept {
 // --- view of all boards ---
 
 MachineState::MachineState(const Boards& boards) noexcept
-    : phase(boards.boards_.front().state().phase), boards_(&boards) {
-  for (const Board& b : boards.boards_) phase = std::min(phase, b.state().phase);
-}
+    : phase(boards.phase()), boards_(&boards) {}
 
 const control::JointState& MachineState::joint(std::size_t joint) const noexcept {
   const Boards::Place at = boards_->joint_[joint];

@@ -126,7 +126,20 @@ class Boards {
   signals::Scan scan() const noexcept { return {period_, conversion_}; }
   std::span<Board> each() noexcept { return boards_; }
   MachineState state() const noexcept { return MachineState(*this); }
+  // Returns the least advanced phase of all boards.
+  control::Phase phase() const noexcept {
+    control::Phase least = boards_.front().state().phase;
+    for (const Board& b : each())
+      if (b.state().phase < least) least = b.state().phase;
+    return least;
+  }
   void command(const MachineCommand& command) noexcept;
+  // Returns whether a board certainly drives a valve at t (control/supervise/supervisor.h).
+  bool drives_at(signals::Tick t) const noexcept {
+    for (const Board& b : each())
+      if (b.supervisor.drives_at(t)) return true;
+    return false;
+  }
   // Returns the first tick after t at which any board has an event. Ends the run of all boards if
   // one has ended.
   signals::Tick next_event(signals::Tick t) noexcept;

@@ -34,10 +34,12 @@ class Controllers {
   const HighLevel* gait() const noexcept { return std::get_if<HighLevel>(&high_level_); }
   const Drive* drive() const noexcept { return std::get_if<Drive>(&high_level_); }
 
-  // Return the scan of conversions, the phase, and whether the shown state is that of tick t.
+  // Return the scan of conversions, the phase, whether the shown state is that of tick t, and
+  // whether a valve is certainly driven at t, if it is not the start of a period.
   signals::Scan scan() const noexcept { return boards_.scan(); }
-  control::Phase phase() const noexcept { return boards_.state().phase; }
+  control::Phase phase() const noexcept { return boards_.phase(); }
   bool has_state_of(signals::Tick t) const noexcept { return boards_.has_state_of(t); }
+  bool drives_at(signals::Tick t) const noexcept { return boards_.drives_at(t); }
   // Returns the tick of the first sample if one is taken every `period`: for a robot, if `period`
   // is a multiple of the scan's, the tick of the scan's last reading, at which the last law runs;
   // else 0.

@@ -31,9 +31,11 @@ class Bounds {
         lag_[c.read] = std::max(lag_[c.read], static_cast<Tick>(c.read - c.start));
   }
 
-  double before(Tick t, bool samples) const noexcept {
-    const Tick of_period = t % period_, lag = lag_[static_cast<std::size_t>(of_period)];
-    if (lag != none) return seconds(t - lag);
+  // `drives`: whether a valve is driven at t, before the conversions. Ticks must not decrease.
+  double before(Tick t, bool samples, bool drives) noexcept {
+    while (t - start_ >= period_) start_ += period_;
+    const Tick of_period = t - start_, lag = lag_[static_cast<std::size_t>(of_period)];
+    if (lag != none && !(drives && of_period != 0)) return seconds(t - lag);
     if (of_period == 0 && !samples) return nothing;  // usually the high level's commands only
     return before(seconds(t));                       // an edge at t: all nodes before it
   }
@@ -48,8 +50,8 @@ class Bounds {
   }
   static double seconds(Tick t) { return static_cast<double>(t) * signals::tick_seconds; }
 
-  Tick period_;
-  std::vector<Tick> lag_;  // for the conversions read at a tick of the period
+  Tick period_, start_ = 0;  // start of the present period
+  std::vector<Tick> lag_;    // for the conversions read at a tick of the period
 };
 
 RunOptions options_of(const Lanes& lanes, const Experiment& e) {
@@ -73,7 +75,7 @@ class Lane {
     reached_ = true;
     const Tick t = simulation_.next();
     if (run_.ended() || t >= simulation_.last()) return plant::Batch::finished;
-    return bounds_.before(t, run_.samples(t));
+    return bounds_.before(t, run_.samples(t), simulation_.controllers().drives_at(t));
   }
 
   Outcome finish() {

@@ -41,6 +41,15 @@ auto each_board(JointController& joint_controller) noexcept {
     return std::span<JointController, 1>(&joint_controller, 1);
 }
 
+// Returns the phase of a low level.
+template <class JointController>
+control::Phase phase_of(const JointController& joint_controller) noexcept {
+  if constexpr (requires { joint_controller.phase(); })
+    return joint_controller.phase();
+  else
+    return joint_controller.state().phase;
+}
+
 // JointController   scan(), state().phase, command(command), edges(t), due(t),
 //         take(conversion, reading, t), next_event(t), missed(t), shut_down(t):
 //         control::Supervisor, control::JointController alone; or Boards, whose each() returns
@@ -62,15 +71,15 @@ void advance(LoopState& loop, JointController& joint_controller, GaitController&
   loop.started = true;
   Status& status = loop.status;
   Tick& t = loop.at;
-  while (status == Status::ok && t < until &&
-         joint_controller.state().phase != control::Phase::off && !is_stopped(watch)) {
+  while (status == Status::ok && t < until && phase_of(joint_controller) != control::Phase::off &&
+         !is_stopped(watch)) {
     if (!wait(clock, t)) joint_controller.missed(t);
 
     // The high level's setpoints for this period; its last ones shut the joint controller down.
     if (t % joint_controller.scan().period == 0) {
       joint_controller.command(gait_controller.update(joint_controller.state(), t));
       watch.command(t);
-      if (gait_controller.finished() && joint_controller.state().phase == control::Phase::running)
+      if (gait_controller.finished() && phase_of(joint_controller) == control::Phase::running)
         joint_controller.shut_down(t);
     }
 
