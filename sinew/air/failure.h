@@ -22,9 +22,12 @@ struct Failure {
 inline constexpr double most_pressure = 1e12, largest_position = 1e6, most_density = 1e6;
 
 // Return whether a number is possible as a pressure [Pa], as a density relative to the reference
-// [-], and as a position [m] or [rad] of a machine. NaN is not.
+// [-], and as a position [m] or [rad] of a machine, or of each in a pack. NaN is not.
 constexpr bool is_pressure(double p) { return p > 0 && p < most_pressure; }
 constexpr bool is_density(double sigma) { return sigma > 0 && sigma < most_density; }
-constexpr bool is_position(double at) { return at < largest_position && at > -largest_position; }
+template <class S>
+constexpr auto is_position(const S& at) {
+  return (at < largest_position) & (at > -largest_position);
+}
 
 }  // namespace sinew::air

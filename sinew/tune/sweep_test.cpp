@@ -157,16 +157,18 @@ TEST(Sweep, FailuresAreRows) {
 TEST(Sweep, StopsAfterTheRunsThatHaveBegun) {
   std::atomic<bool> stop{false};
   std::size_t told = 0;
+  Sweep steps = gains();
+  steps.axes = {parse_axis("sequence.repeat=2,1,4,3")};  // of two side by side the first ends first
   const auto rows_of = [&](int lanes) {
     stop = false;
     told = 0;
-    return sweep(gains(), {.threads = 1,
-                           .lanes = lanes,
-                           .stop = &stop,
-                           .row =
-                               [&](const Row&) {
-                                 if (++told == 2) stop = true;
-                               }})
+    return sweep(steps, {.threads = 1,
+                         .lanes = lanes,
+                         .stop = &stop,
+                         .row =
+                             [&](const Row&) {
+                               if (++told == 2) stop = true;
+                             }})
         .size();
   };
   EXPECT_EQ(rows_of(1), 2U);

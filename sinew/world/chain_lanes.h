@@ -99,7 +99,7 @@ class ChainLanes {
   void update_step_preview(int k) noexcept;
   void commit(const Mask& active) noexcept;
   void move_valves(const Mask& active) noexcept;
-  void check_for_failures(const Mask& active, const std::array<int, W>& failed) noexcept;
+  void note_failures(const Mask& active, const std::array<int, W>& failed) noexcept;
   template <class Packed, class One, class Put>
   void each_number(Packed& packed, One& one, const Put& put) const noexcept;
   void copy_to_lane(int k) noexcept;
@@ -116,7 +116,7 @@ class ChainLanes {
   std::array<bool, lanes> world_outdated_{};  // the machine's World is out of date
 
   typename Integrated::StepPreview step_preview_;  // whole steps, used by evaluations between nodes
-  std::array<bool, lanes> has_step_preview_{};     // it is valid for the machine's node
+  std::uint32_t has_step_preview_ = 0;  // it is valid for the node of these machines, a bit each
   Instants until_{};
   std::array<bool, lanes> parked_{};
 };
@@ -322,11 +322,12 @@ void ChainLanes<N, W>::commit(const Mask& active) noexcept {
     any = any || later;
     times_[l].pass(next, step_[l]);
     world_outdated_[l] = true;
-    has_step_preview_[l] = false;
+    has_step_preview_ &= ~(1u << k);
   }
   if (any) nodes_of_all_.step(steps, h, state_);
   move_valves(active);
-  check_for_failures(active, nodes_of_all_.prepare(active, state_));
+  std::array<int, W> failed;
+  if (!nodes_of_all_.prepare(active, state_, failed)) note_failures(active, failed);
 }
 
 template <int N, int W>
@@ -337,13 +338,13 @@ void ChainLanes<N, W>::move_valves(const Mask& active) noexcept {
     typename World::State& s = worlds_[l]->mutable_state();
     worlds_[l]->air().move_valves(times_[l].time, s.first.air, s.valves);
     change_[l] = s.valves.next_change;
-    nodes_of_all_.air().set_shares(k, s.valves, state_.valves);
+    nodes_of_all_.air().update_shares(k, s.valves, state_.valves);
   }
 }
 
 template <int N, int W>
-void ChainLanes<N, W>::check_for_failures(const Mask& active,
-                                          const std::array<int, W>& failed) noexcept {
+void ChainLanes<N, W>::note_failures(const Mask& active,
+                                     const std::array<int, W>& failed) noexcept {
   for (std::size_t k = 0; k < W; ++k) {
     const int lane = static_cast<int>(k);
     if (!active[lane]) continue;
@@ -363,11 +364,11 @@ void ChainLanes<N, W>::check_for_failures(const Mask& active,
 // it.
 template <int N, int W>
 void ChainLanes<N, W>::update_step_preview(int k) noexcept {
-  if (has_step_preview_[static_cast<std::size_t>(k)]) return;
+  if ((has_step_preview_ >> k & 1u) != 0) return;
   S h;
   for (int i = 0; i < W; ++i) h.set(i, step_[static_cast<std::size_t>(i)]);
   nodes_of_all_.preview_step(h, state_, step_preview_);
-  has_step_preview_.fill(true);
+  has_step_preview_ = (1u << W) - 1;
 }
 
 template <int N, int W>
@@ -387,8 +388,8 @@ signals::Status ChainLanes<N, W>::drive(int k, const signals::Edge& edge) noexce
     return signals::Status::invalid;
   while (!failure_[l] && next_node(k) < t) commit(only(k));
   typename World::State& s = world.mutable_state();
-  for (int i = 0; i < nodes_of_all_.air().muscles(); ++i)
-    s.first.air.pressure[i] = state_.first.air.pressure[i][k];
+  if (const int muscle = edge.valve.index / 2; muscle < nodes_of_all_.air().muscles())
+    s.first.air.pressure[muscle] = state_.first.air.pressure[muscle][k];
   world.air().command(edge, t, s.first.air, s.valves);
   change_[l] = s.valves.next_change;
   return signals::Status::ok;
@@ -456,7 +457,7 @@ void ChainLanes<N, W>::copy_to_lane(int k) noexcept {
   step_[l] = worlds_[l]->body_step();
   failure_[l] = s.failure;
   world_outdated_[l] = false;
-  has_step_preview_[l] = false;
+  has_step_preview_ &= ~(1u << k);
   nodes_of_all_.prepare_friction(state_);
 }
 

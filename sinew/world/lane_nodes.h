@@ -53,9 +53,10 @@ class LaneNodes : public Nodes<ChainBody<N, units::Pack<W>>, air::PlainAir<chain
   void step(const Mask& steps, const S& h, State& s) const noexcept;
 
   // Prepares a new node of the machines in `active`: references, the first stage, friction. The
-  // others keep their first stage, which was evaluated before their references moved. Returns each
-  // machine's first muscle whose density is not valid, or -1.
-  std::array<int, W> prepare(const Mask& active, State& s) noexcept;
+  // others keep their first stage, which was evaluated before their references moved. Returns
+  // whether all densities and motions are valid; `failed`: each machine's first muscle whose
+  // density is not, or -1.
+  bool prepare(const Mask& active, State& s, std::array<int, W>& failed) noexcept;
 
   // Computes the friction problem of all lanes. Equal inputs have equal results, so lanes that wait
   // do not change.
@@ -121,7 +122,7 @@ void LaneNodes<N, W>::step(const Mask& steps, const S& h, State& s) const noexce
 }
 
 template <int N, int W>
-std::array<int, W> LaneNodes<N, W>::prepare(const Mask& active, State& s) noexcept {
+bool LaneNodes<N, W>::prepare(const Mask& active, State& s, std::array<int, W>& failed) noexcept {
   if (units::all(active)) {
     this->evaluate_air(0, s.now, s.valves, s.memory, s.first);
   } else {
@@ -131,11 +132,13 @@ std::array<int, W> LaneNodes<N, W>::prepare(const Mask& active, State& s) noexce
       for (int i = 0; i < air().muscles(); ++i) to[i] = units::select(active, from[i], to[i]);
     });
   }
-  const std::array<int, W> failed = air().update_memory(active, s.first.air, s.memory);
+  failed = air().update_memory(active, s.first.air, s.memory);
   s.trolley_bound =
       units::select(active, body().trolley_bound(s.held, s.trolley_bound), s.trolley_bound);
   prepare_friction(s);
-  return failed;
+  bool valid = units::all(air::is_position(body().sum(s.now.motion)));
+  for (const int muscle : failed) valid = valid && muscle < 0;
+  return valid;
 }
 
 template <int N, int W>
