@@ -24,8 +24,10 @@ class Selection {
   // of a robot. A key that its summary lacks may appear in other runs, and the other way round.
   Selection(std::vector<std::string> keys, const signals::Table& table, const Machine& machine);
 
-  // Returns the topics of the log that figures() needs.
+  // Returns the topics of the log that figures() needs, and those of series derived from them.
   const signals::TopicNames& topics() const { return topics_; }
+  // Adds topics that runs like others need.
+  void add(const signals::TopicNames& topics) { topics_.insert(topics.begin(), topics.end()); }
 
   // Returns the figures of these keys, and maybe of others, for a run that recorded at least the
   // topics above; a topic that was not recorded has an empty series. Returns nothing if this run's

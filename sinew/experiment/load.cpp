@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 
 #include "sinew/config/changes.h"
@@ -193,7 +194,8 @@ Numbers::Numbers(const Experiment& like, const std::vector<std::string>& keys)
   units::EachField visitor([&](const units::VisitedField& f) {
     hash_ = units::hash(f.path, hash_);
     std::size_t& key = key_of_.emplace_back(absent);
-    if (!f.number && !f.whole) return;
+    // The elements of a list cannot be set by their keys.
+    if ((!f.number && !f.whole) || f.path.find('[') != f.path.npos) return;
     if (const std::size_t own = find(f.path); own < keys.size()) {
       key = own;
       has_[own] = true;
@@ -218,7 +220,8 @@ bool Numbers::set(Experiment& e, std::span<const double> values) const {
     if (key == absent) return;
     const double value = values[key];
     good = good && units::is_within(f.field, value) &&
-           (f.number || (f.whole && value == std::floor(value) && std::abs(value) < 1e9));
+           (f.number || (f.whole && value == std::floor(value) &&
+                         std::abs(value) <= std::numeric_limits<int>::max()));
     if (!good) return;
     if (f.number) *f.number = value;
     if (f.whole) *f.whole = static_cast<int>(value);

@@ -27,10 +27,11 @@ class Numbers {
   // Returns the values in `like`, in SI; 0 for a key that cannot be set.
   const std::vector<double>& values() const { return values_; }
 
-  // Sets the numbers to values in SI, one for each key, and all that follows from them. `e` must
-  // have the same tables as `like`. Returns false if the file has to be read with these values
-  // instead, because one of them is out of its bounds or because keys appear or vanish with it; `e`
-  // has an unspecified value then. Contradictions among the values are not found here.
+  // Sets the numbers to values in SI, one for each key, and gains, pulses and times of the plan
+  // that follow from them. `e` must have the same tables as `like`. Returns false if the file has
+  // to be read with these values instead, because one of them is out of its bounds or because keys
+  // appear or vanish with it; `e` has an unspecified value then. Contradictions among the values
+  // are not found here.
   bool set(Experiment& e, std::span<const double> values) const;
 
  private:

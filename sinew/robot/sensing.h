@@ -26,6 +26,7 @@ class SensorCounts {
         divides_(sensor.kind == Sensor::Kind::angle || sensor.kind == Sensor::Kind::cylinder),
         constant_(sensor.kind == Sensor::Kind::fixed) {}
 
+  // Returns whether its counts have noise.
   bool noisy() const noexcept { return noise_ > 0; }
   // Returns the converter's counts for the angle [rad] or tension [N] at its input: offset, noise
   // of unit standard deviation, rounding to the nearest count, and its two ends (4.1, 4.4: tension

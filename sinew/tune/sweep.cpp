@@ -220,9 +220,10 @@ void run_points(const Sweep& s, const Points& points, std::span<const std::size_
     const std::lock_guard lock(mutex);
     done(std::move(row));
   };
+  const std::size_t threads = std::min(static_cast<std::size_t>(how.threads), numbers.size());
+  const int lanes = run::lanes_of(numbers.size(), threads, how.lanes);
   host::side_by_side(
-      std::min(static_cast<std::size_t>(how.threads), numbers.size()),
-      [&](std::size_t) { run_in_thread(s, points, how.lanes, next, hand_back); }, nullptr,
+      threads, [&](std::size_t) { run_in_thread(s, points, lanes, next, hand_back); }, nullptr,
       how.threads);
 }
 

@@ -153,8 +153,8 @@ void check(const Sweep&);
 //
 // All runs of one call use the files as they were when the first of these runs read them, also if a
 // file is edited meanwhile. This holds for the experiment, its base, the robot and the robot's
-// files with their gains. It does not hold for a table of valve timing, which each run reads, nor
-// between processes of a dispatcher, nor between calls without the same Options::runs.
+// files with their gains. It does not hold for a table of valve timing, which some runs read again,
+// nor between processes of a dispatcher, nor between calls without the same Options::runs.
 std::vector<Row> sweep(const Sweep&, const Options&);
 
 // Runs points of a sweep by their number, for a dispatcher. A row does not depend on the

@@ -30,16 +30,25 @@ std::vector<std::string> with_notes(std::vector<std::string> figures) {
   return figures;
 }
 
-// Returns the value of a text in SI; nothing if it is no quantity of that unit.
+// Returns the value of a text in SI; nothing if it is not a quantity of that unit, or not a whole
+// number if the unit is empty.
 std::optional<double> value_of(const std::string& text, const std::string& unit,
                                double atmosphere) {
-  const units::Parsed parsed = units::parse_quantity(text, unit.empty() ? "1" : unit, atmosphere);
+  if (unit.empty()) {
+    int whole = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), whole);
+    if (error != std::errc{} || end != text.data() + text.size()) return {};
+    return whole;
+  }
+  const units::Parsed parsed = units::parse_quantity(text, unit, atmosphere);
   if (parsed.mistake) return {};
   return parsed.si;
 }
 
 std::string text_of(double value, const std::string& unit) {
-  return unit.empty() ? units::format_number(value) : units::format_quantity(value, unit);
+  if (!unit.empty()) return units::format_quantity(value, unit);
+  const bool whole = value == std::floor(value) && std::abs(value) < 1e15;
+  return whole ? fmt::format("{:.0f}", value) : units::format_number(value);
 }
 
 // Throws config::Error as reading the file does.
@@ -104,6 +113,7 @@ Ensemble::Ensemble(config::Composer& files, const std::string& experiment,
 Ensemble::Start Ensemble::start(const std::vector<std::string>& values) const {
   std::unique_ptr<Member> first = read(values);
   experiment::Numbers numbers(first->experiment, parameters_);
+  first->experiment.origins = {};  // a run does not need them, and copies the experiment
   return {std::move(first->experiment), std::move(first->machine), std::move(numbers), values};
 }
 
@@ -135,7 +145,16 @@ std::unique_ptr<Ensemble::Member> Ensemble::spare() const {
       return out;
     }
   }
-  return std::make_unique<Member>(Member{start_.experiment, start_.machine, nullptr});
+  return std::make_unique<Member>(Member{start_.experiment, start_.machine, nullptr, true});
+}
+
+// Returns whether the file is read for every run: for a stand, whose description for the analysis
+// has other parts; and if the atmosphere differs, to which pressures in the file may refer.
+bool Ensemble::reads() const {
+  if (start_.experiment.stand) return true;
+  if (std::ranges::find(parameters_, "air.atmosphere") != parameters_.end()) return true;
+  const std::lock_guard lock(mutex_);
+  return reads_;
 }
 
 // Returns the run with these values in SI without reading the file; null if it must be read.
@@ -154,6 +173,7 @@ std::unique_ptr<Ensemble::Member> Ensemble::set(std::span<const double> values) 
 // Returns whether each parameter with a new value has been compared.
 bool Ensemble::is_compared(std::span<const double> values) const {
   const std::lock_guard lock(mutex_);
+  if (reads_) return false;
   for (std::size_t i = 0; i < values.size(); ++i)
     if (values[i] != start_.numbers.values()[i] && !(i < compared_.size() && compared_[i]))
       return false;
@@ -175,17 +195,15 @@ void Ensemble::compare(const Member& set, const Member& read,
 std::unique_ptr<Ensemble::Member> Ensemble::member(std::span<const double> values,
                                                    const std::vector<std::string>& texts) const {
   std::shared_ptr<const analysis::Selection> selection;
-  bool reads = false;
   {
     const std::lock_guard lock(mutex_);
     selection = selection_;
-    reads = reads_;
   }
   std::unique_ptr<Member> out;
   if (texts == start_.values)
     return std::make_unique<Member>(
         Member{start_.experiment, start_.machine, std::move(selection)});
-  if (!reads && values.size() == parameters_.size()) out = set(values);
+  if (!reads() && values.size() == parameters_.size()) out = set(values);
   if (!out) {
     out = read(texts);
   } else if (!is_compared(values)) {
@@ -205,27 +223,36 @@ std::unique_ptr<Ensemble::Member> Ensemble::member(const std::vector<std::string
   return member(numbers, values);
 }
 
+// Returns the figures of a run: the wanted ones from the topics that it recorded, or all of them.
+// If these topics are too few, it is run again, and later runs record more.
+analysis::Summary Ensemble::figures_of(const Member& member, const Outcome& outcome,
+                                       bool& no_air) const {
+  const analysis::Machine& machine = member.machine;
+  if (member.selection)
+    if (auto figures = member.selection->figures(outcome.table, machine))
+      return std::move(*figures);
+  Outcome again;
+  if (member.selection) again = run::run(member.experiment);
+  const signals::Table& table = member.selection ? again.table : outcome.table;
+  no_air = !analysis::unused_air(table, machine).empty();
+  if (!figures_.empty() && !parameters_.empty() && !machine.stand) {
+    analysis::Selection selection(with_notes(figures_), table, machine);
+    const std::lock_guard lock(mutex_);
+    if (selection_) selection.add(selection_->topics());
+    if (!selection_ || selection_->topics() != selection.topics())
+      selection_ = std::make_shared<const analysis::Selection>(std::move(selection));
+  }
+  return analysis::summarize(table, machine);
+}
+
 RunResult Ensemble::result(std::unique_ptr<Member> member, const Outcome& outcome) const {
   RunResult out{.status = status_of(member->experiment, outcome)};
-  const analysis::Machine& machine = member->machine;
-  out.atmosphere = machine.atmosphere;
+  out.atmosphere = member->machine.atmosphere;
   if (out.ok()) {
-    std::optional<analysis::Summary> figures;
-    if (member->selection) figures = member->selection->figures(outcome.table, machine);
-    if (figures) {
-      out.summary = std::move(*figures);
-    } else {
-      const Outcome whole = member->selection ? run::run(member->experiment) : Outcome{};
-      const signals::Table& table = member->selection ? whole.table : outcome.table;
-      out.summary = analysis::summarize(table, machine);
-      out.no_air = !analysis::unused_air(table, machine).empty();
-      const std::lock_guard lock(mutex_);
-      if (!selection_ && !member->experiment.stand)
-        selection_ =
-            std::make_shared<const analysis::Selection>(with_notes(figures_), table, machine);
-    }
-    compare_with_reported(machine, out);
+    out.summary = figures_of(*member, outcome, out.no_air);
+    compare_with_reported(member->machine, out);
   }
+  if (!member->is_set) return out;
   const std::lock_guard lock(mutex_);
   spare_.push_back(std::move(member));
   return out;
@@ -265,11 +292,10 @@ std::vector<std::string> Ensemble::run(std::span<const double> values, std::span
   };
   const auto threads = std::min<std::size_t>(
       static_cast<std::size_t>(host::threads_of(options.threads)), std::max<std::size_t>(1, rows));
+  const int lanes = lanes_of(rows, threads, options.lanes);
   host::side_by_side(
       threads,
-      [&](std::size_t) {
-        run_many({.next = next, .begin = begin, .done = done, .lanes = options.lanes});
-      },
+      [&](std::size_t) { run_many({.next = next, .begin = begin, .done = done, .lanes = lanes}); },
       nullptr, static_cast<int>(threads));
   return status;
 }

@@ -64,7 +64,8 @@ class Ensemble {
   // Runs one experiment per row of `values` (parameters, in SI) and writes its figures (in SI; NaN:
   // the run has no such figure) to the row of `figures`. Returns the status of each run: "ok", or
   // why it has no figures; "not run" after a stop. The results do not depend on threads, lanes and
-  // other rows. Throws std::invalid_argument if the sizes do not match.
+  // other rows. Several threads may call it. Throws std::invalid_argument if the sizes do not
+  // match.
   std::vector<std::string> run(std::span<const double> values, std::span<double> figures,
                                const Options& options) const;
   std::vector<std::string> run(std::span<const double> values, std::span<double> figures) const {
@@ -78,6 +79,7 @@ class Ensemble {
     experiment::Experiment experiment;
     analysis::Machine machine;
     std::shared_ptr<const analysis::Selection> selection;  // its topics are recorded; empty: all
+    bool is_set = false;  // its numbers were set in a copy of another run's experiment
   };
 
   // Reads an experiment through files that were read before, which must outlive the ensemble.
@@ -91,7 +93,8 @@ class Ensemble {
 
   // Returns the run with these values, texts with units. Throws config::Error if it is refused.
   std::unique_ptr<Member> member(const std::vector<std::string>& values) const;
-  // Returns the result of a run, and keeps the member's memory for another one.
+  // Returns the result of a run, with all figures or with the wanted ones, and keeps the member's
+  // memory for another one.
   RunResult result(std::unique_ptr<Member> member, const Outcome& outcome) const;
 
  private:
@@ -108,6 +111,8 @@ class Ensemble {
   std::unique_ptr<Member> member(std::span<const double> values,
                                  const std::vector<std::string>& texts) const;
   std::unique_ptr<Member> spare() const;
+  bool reads() const;
+  analysis::Summary figures_of(const Member& member, const Outcome& outcome, bool& no_air) const;
   bool is_compared(std::span<const double> values) const;
   void compare(const Member& set, const Member& read, std::span<const double> values) const;
   Start start(const std::vector<std::string>& values) const;

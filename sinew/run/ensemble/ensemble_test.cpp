@@ -7,6 +7,7 @@
 #include <random>
 
 #include "sinew/analysis/summary.h"
+#include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/ensemble/many.h"
 #include "sinew/run/setup/buildable.h"
@@ -63,6 +64,21 @@ std::vector<double> draw(std::size_t rows, std::mt19937& random) {
   return out;
 }
 
+// A run whose file is read with these settings, without ensembles: the reference of all tests.
+RunResult read_and_run(const std::string& file, const std::vector<std::string>& sets) {
+  RunResult out;
+  try {
+    const config::Node root = config::compose(file, sets);
+    const analysis::Machine machine = analysis::read_machine(root);
+    const experiment::Experiment e = buildable(root, file);
+    experiment::refuse_unreachable(e);
+    out.summary = analysis::summarize(run(e).table, machine);
+  } catch (const config::Error& e) {
+    out.status = "refused: " + config::to_text(e.problems().front());
+  }
+  return out;
+}
+
 RunResult single(const std::string& file, std::span<const double> values) {
   std::vector<std::string> sets;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -71,7 +87,22 @@ RunResult single(const std::string& file, std::span<const double> values) {
                    (p.unit.empty() ? units::format_number(values[i])
                                    : units::format_quantity(values[i], p.unit)));
   }
-  return run_once(file, sets);
+  return read_and_run(file, sets);
+}
+
+// Compares a figure of runs of one file with settings: by ensembles, and by reading the file.
+void expect_equal(const std::string& file, const std::vector<std::vector<std::string>>& runs,
+                  const std::string& figure) {
+  Ensembles ensembles({figure});
+  for (const std::vector<std::string>& sets : runs) {
+    const RunResult found = ensembles.run_once(file, sets), one = read_and_run(file, sets);
+    const double *is = found.summary.find(figure), *expected = one.summary.find(figure);
+    EXPECT_EQ(found.status, one.status) << sets.back();
+    ASSERT_EQ(is != nullptr, expected != nullptr) << sets.back();
+    if (is != nullptr) {
+      EXPECT_EQ(*is, *expected) << sets.back();
+    }
+  }
 }
 
 const std::vector<std::string> figures = {"joints.hip.tracking_rms_rad",
@@ -126,12 +157,68 @@ TEST(Ensemble, ARefusedRowSaysWhy) {
   std::vector<double> found(values.size());
   const std::vector<std::string> status = ensemble.run(values, found);
   EXPECT_EQ(status[0], "ok");
-  EXPECT_EQ(status[1], run_once(leg, {"link.femur.mass=-1 kg"}).status);
+  EXPECT_EQ(status[1], read_and_run(leg, {"link.femur.mass=-1 kg"}).status);
   EXPECT_NE(status[1].find("refused: "), std::string::npos);
   EXPECT_NE(status[2].find("refused: "), std::string::npos);
-  EXPECT_EQ(status[3], run_once(leg, {"link.femur.mass=1e+09 kg"}).status);
+  EXPECT_EQ(status[3], read_and_run(leg, {"link.femur.mass=1e+09 kg"}).status);
   EXPECT_EQ(found[0], found[4]);
   EXPECT_TRUE(std::isnan(found[1]));
+}
+
+// A later setting overrides earlier ones, however it is written.
+TEST(Ensemble, SettingsActInTheirOrder) {
+  expect_equal(leg,
+               {{"seed=2", "seed = 7", "joint.hip.damping=0.1 N m s/rad"},
+                {"seed=2", "seed = 7", "joint.hip.damping=0.2 N m s/rad"},
+                {"seed=7", "seed=2", "joint.hip.damping=0.3 N m s/rad"},
+                {"joint.hip.damping=0.3 N m s/rad", "seed=5"}},
+               "joints.hip.tracking_rms_rad");
+}
+
+TEST(Ensemble, AWholeNumberIsWrittenAsOne) {
+  expect_equal(leg, {{"seed=2"}, {"seed=3"}, {"seed=4"}, {"seed=3.0"}, {"seed=300 %"}},
+               "air_used_kg");
+  const Ensemble ensemble(leg, {}, {"seed"}, {"air_used_kg"});
+  std::vector<double> found(3);
+  const auto status = ensemble.run(std::vector<double>{1.5e9, 7, 2.5}, found);
+  EXPECT_EQ(status[0], "ok");
+  EXPECT_NE(status[2].find("expected a whole number"), std::string::npos);
+}
+
+// Pressures in the file refer to the atmosphere, and so does a gauge pressure that is set.
+TEST(Ensemble, TheAtmosphereDeterminesOtherNumbers) {
+  expect_equal(leg,
+               {{"air.atmosphere=90 kPa abs", "start.pressure=110 kPa abs"},
+                {"air.atmosphere=91 kPa abs", "start.pressure=111 kPa abs"},
+                {"air.atmosphere=92 kPa abs", "start.pressure=20 kPa gauge"}},
+               "air_used_kg");
+  Ensemble ensemble(leg, {"sequence.repeat=1"}, {"air.atmosphere"}, {"air_used_kg"});
+  std::vector<double> values, alone(24), many(24);
+  for (int i = 0; i < 24; ++i) values.push_back(90e3 + 10 * i);
+  (void)ensemble.run(values, alone, {.threads = 1, .lanes = 1});
+  (void)ensemble.run(values, many, {.threads = 8});
+  EXPECT_EQ(alone, many);
+}
+
+TEST(Ensemble, AStandsDriveIsTheRunsOwn) {
+  expect_equal(experiments + "rig/pwm-50hz-1lb.toml",
+               {{"drive.period=20 ms"}, {"drive.period=25 ms"}, {"drive.period=50 ms"}},
+               "pulsed.pressure_Pa");
+}
+
+TEST(Ensemble, AFaultStaysInEachRun) {
+  expect_equal(experiments + "faults/valve-stuck-open.toml",
+               {{"joint.hip.damping=0.1 N m s/rad"},
+                {"joint.hip.damping=0.2 N m s/rad"},
+                {"joint.hip.damping=0.3 N m s/rad"}},
+               "joints.hip.tracking_rms_rad");
+}
+
+TEST(Ensemble, AnElementOfAListIsNotAParameter) {
+  EXPECT_NE(message([] {
+              Ensemble(experiments + "faults/sensor-open.toml", {}, {"fault[0].at"}, {});
+            }).find("a number of the experiment"),
+            std::string::npos);
 }
 
 TEST(Ensemble, RefusesAParameterThatIsNoNumber) {

@@ -7,6 +7,7 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/simulation/lanes.h"
+#include "sinew/units/letters.h"
 
 namespace sinew::run {
 namespace {
@@ -81,6 +82,11 @@ void run_many(const Many& many) {
   run_in_lanes({.next = next, .done = done, .most = many.lanes, .topics = topics});
 }
 
+int lanes_of(std::size_t runs, std::size_t threads, int most) {
+  const std::size_t each = (runs + threads - 1) / std::max<std::size_t>(1, threads);
+  return static_cast<int>(std::clamp<std::size_t>(each, 1, static_cast<std::size_t>(most)));
+}
+
 // The settings of a run: those with numbers, which may differ within an ensemble, and the others.
 struct Ensembles::Split {
   std::vector<std::string> fixed, keys, values;
@@ -126,6 +132,7 @@ std::shared_ptr<const Ensemble> Ensembles::ensemble(const std::string& experimen
     const std::lock_guard lock(mutex_);
     for (const std::string& key : unknown) fixed_.insert({experiment, key});
     if (!unknown.empty()) continue;
+    if (split.keys.empty()) return made;  // of this run alone
     if (ensembles_.size() >= most) ensembles_.clear();
     return ensembles_.try_emplace(std::move(name), std::move(made)).first->second;
   }
@@ -135,8 +142,9 @@ BegunRun Ensembles::begin(const std::string& experiment, const std::vector<std::
   Split split;
   for (const std::string& set : sets) {
     const std::size_t equals = std::min(set.find('='), set.size());
-    const std::string key = set.substr(0, equals),
-                      value = set.substr(std::min(equals + 1, set.size()));
+    const std::string key(units::trimmed(std::string_view(set).substr(0, equals)));
+    const std::string value(
+        units::trimmed(std::string_view(set).substr(std::min(equals + 1, set.size()))));
     // A later setting overrides earlier ones of the same key, and of keys within its table.
     const bool number = looks_like_number(value);
     if (number) {

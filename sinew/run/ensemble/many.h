@@ -31,8 +31,12 @@ struct Many {
   std::function<void(std::size_t, RunResult)> done;
   int lanes = 8;  // largest number; 1: one after the other
 };
-// Runs all in this thread (run/simulation/lanes.h). Each result equals that of run_once().
+// Runs all in this thread (run/simulation/lanes.h). The wanted figures of each result equal those
+// of a single run.
 void run_many(const Many& many);
+
+// Returns the lanes of each thread, at most `most`, so that all threads have runs.
+int lanes_of(std::size_t runs, std::size_t threads, int most);
 
 // The ensembles of runs that are given as files with settings: runs that differ only in numbers
 // form one. Threads may use it at the same time.

@@ -46,7 +46,7 @@ Recorder::Recorder(const experiment::Experiment& e, const Controllers& controlle
 
   // Reserve storage for the largest number of samples and edges.
   const auto samples = static_cast<std::size_t>(end / period_ + 2);
-  const std::size_t edges = controllers.most_edges(end);
+  const std::size_t edges = most_edges_ = controllers.most_edges(end);
   if (samples > signals::Column::page_size || edges > signals::Column::page_size) {
     pages_ = signals::PageFile::make();
     if (!pages_.open(0)) pages_ = {};  // then all samples are kept in memory
@@ -56,7 +56,8 @@ Recorder::Recorder(const experiment::Experiment& e, const Controllers& controlle
   for (std::size_t i = first_edge_; i < topics_.size(); ++i) {
     const bool is = is_wanted(topics_[i]);
     const std::size_t most = is ? edges : 0;
-    edges_.push_back({is, room<signals::Times>(pages_, most), room<signals::Column>(pages_, most)});
+    edges_.push_back(
+        {is, 0, room<signals::Times>(pages_, most), room<signals::Column>(pages_, most)});
   }
 }
 
@@ -75,7 +76,10 @@ void Recorder::edge(const signals::Edge& edge) noexcept {
   const double value = logged(edge);
   const std::size_t topic = first_edge_ + edge.valve.index;
   Edges& of_valve = edges_[edge.valve.index];
-  if (!of_valve.wanted) return;
+  if (!of_valve.wanted) {  // the run is not complete without room for its edges
+    complete_ = complete_ && ++of_valve.left_out <= most_edges_;
+    return;
+  }
   keep(of_valve.time_ns, edge.at * signals::tick_nanoseconds);
   keep(of_valve.values, value);
   if (tap_.push && tapped_[topic] != not_tapped)

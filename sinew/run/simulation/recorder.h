@@ -77,6 +77,7 @@ class Recorder {
   };
   struct Edges {  // edges of one valve
     bool wanted = true;
+    std::size_t left_out = 0;  // edges of a valve that is not wanted
     signals::Times time_ns;
     signals::Column values;
   };
@@ -89,6 +90,7 @@ class Recorder {
   signals::Times row_time_ns_;           // times of all numbers below
   std::vector<signals::Column> values_;  // one column per number of a row
   std::vector<Edges> edges_;             // one per valve
+  std::size_t most_edges_ = 0;           // of a valve
   bool complete_ = true;
 
   std::size_t number_ = 0;  // in the row, of the next put()
