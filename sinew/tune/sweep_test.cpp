@@ -11,6 +11,7 @@
 #include "sinew/run/simulation/run.h"
 #include "sinew/tune/study.h"
 #include "sinew/tune/table.h"
+#include "tests/message.h"
 #include "tests/places.h"
 
 namespace sinew::tune::sweep_test {
@@ -35,15 +36,7 @@ std::string table(const Sweep& s, int threads, int lanes = 8) {
   return csv_line(headings(s)) + rows;
 }
 
-template <class Act>
-std::string message(Act act) {
-  try {
-    act();
-  } catch (const config::Error& e) {
-    return e.what();
-  }
-  return "";
-}
+using test::message;
 
 // Uses the resolved file, like `sinew run` and `sinew analyze`.
 analysis::Summary single_run(const std::vector<std::string>& sets) {
@@ -158,7 +151,8 @@ TEST(Sweep, StopsAfterTheRunsThatHaveBegun) {
   std::atomic<bool> stop{false};
   std::size_t told = 0;
   Sweep steps = gains();
-  steps.axes = {parse_axis("sequence.repeat=2,1,4,3")};  // of two side by side the first ends first
+  steps.axes = {
+      parse_axis("sequence.repeat=2,1,4,3")};  // of two side by side, the shorter begins first
   const auto rows_of = [&](int lanes) {
     stop = false;
     told = 0;

@@ -12,6 +12,7 @@
 #include "sinew/run/ensemble/many.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/units/quantity.h"
+#include "tests/message.h"
 #include "tests/places.h"
 
 namespace sinew::run::ensemble_test {
@@ -21,15 +22,7 @@ const std::string experiments = test::source_dir() + "/experiments/";
 const std::string walk = experiments + "walk-test-1.toml";
 const std::string leg = experiments + "leg-in-air.toml";
 
-template <class Act>
-std::string message(Act act) {
-  try {
-    act();
-  } catch (const config::Error& e) {
-    return e.what();
-  }
-  return "";
-}
+using test::message;
 
 // Numbers of the robot, its air, its controller, its start and its noise; two of them determine
 // gains of the plan that the file does not give.

@@ -14,6 +14,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/tune/optimizer/tuned_text.h"
+#include "tests/message.h"
 #include "tests/places.h"
 
 namespace sinew::tune::optimize_test {
@@ -51,15 +52,7 @@ std::string text_of(const std::vector<Candidate>& candidates) {
   return out;
 }
 
-template <class Act>
-std::string message(Act act) {
-  try {
-    act();
-  } catch (const std::exception& e) {
-    return e.what();
-  }
-  return "";
-}
+using test::message;
 
 class OptimizeTest : public ::testing::Test {
  protected:

@@ -8,6 +8,7 @@
 #include "sinew/report/page/page.h"
 #include "sinew/tune/page/study_view.h"
 #include "sinew/tune/results/results.h"
+#include "tests/message.h"
 #include "tests/places.h"
 
 namespace sinew::tune::study_page_test {
@@ -34,15 +35,7 @@ std::vector<Row> some_rows() {
           {.point = 5, .cells = {"0.2", "truncate sum", "2", "", "", "refused: </script> \xff"}}};
 }
 
-template <class Act>
-std::string message(Act act) {
-  try {
-    act();
-  } catch (const std::exception& e) {
-    return e.what();
-  }
-  return "";
-}
+using test::message;
 
 class StudyPageTest : public ::testing::Test {
  protected:

@@ -12,6 +12,7 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/log/file.h"
+#include "tests/message.h"
 #include "tests/places.h"
 
 namespace sinew::tune::results_test {
@@ -48,15 +49,7 @@ bool same(const Row& a, const Row& b) {
   return a.point == b.point && a.cells == b.cells && a.ok == b.ok && a.notes == b.notes;
 }
 
-template <class Act>
-std::string message(Act act) {
-  try {
-    act();
-  } catch (const std::exception& e) {
-    return e.what();
-  }
-  return "";
-}
+using test::message;
 
 class ResultsTest : public ::testing::Test {
  protected:
