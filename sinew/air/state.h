@@ -51,7 +51,7 @@ struct AirValves {
     double share = 0;  // open share of its area
   };
   std::array<Valve, 2 * Most + 4> of;
-  std::array<double, 2 * Most + 4> next_of;  // of each valve, as next_change [s]
+  std::array<double, 2 * Most + 4> next_of;  // next_change for each valve [s]
   std::array<Open, 2 * Most + 4> open;       // those that pass air: the first open_count entries
   int open_count = 0;
   ActingFaults faults;

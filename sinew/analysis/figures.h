@@ -22,7 +22,7 @@ struct Figures {
   const Record& record;  // the log and the series that derive() computes from it
   Summary& summary;
   const std::vector<std::string>* keys = nullptr;  // those that are wanted; nullptr: all
-  std::string prefix = "";                         // of the leg's keys, "legs.left."
+  std::string prefix = "";                         // start of the leg's keys, "legs.left."
   mutable std::map<std::string, double> delivered_duties = {};  // cache, by muscle and valve [-]
 
   // Returns whether any key that begins so is wanted.

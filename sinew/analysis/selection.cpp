@@ -29,7 +29,7 @@ Selection::Selection(std::vector<std::string> keys, const signals::Table& table,
                      const Machine& machine)
     : keys_(std::move(keys)) {
   (void)add(table, derive(table, machine), machine, topics_);
-  TopicNames inputs;  // of the derived ones among these
+  TopicNames inputs;  // topics from which derived ones follow
   (void)derive(table, machine, &topics_, &inputs);
   topics_.merge(inputs);
   for (const robot::Muscle& muscle : machine.robot.muscles) topics_.insert(air_in(machine, muscle));

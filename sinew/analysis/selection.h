@@ -1,9 +1,9 @@
 // analysis/selection.h - chosen figures of many runs of the same kind, from the channels that they
 // need.
 //
-//   Selection selection({"trolley.distance_m"}, table, machine);   // by one whole run's table
+//   Selection selection({"trolley.distance_m"}, table, machine);   // needs one whole run's table
 //   selection.topics()                                             // to be recorded by the others
-//   selection.figures(table, machine)                              // of another run
+//   selection.figures(table, machine)                              // for another run
 //
 // The figures have the bits of summarize(): the same functions compute them.
 #pragma once
@@ -39,7 +39,7 @@ class Selection {
               signals::TopicNames& read) const;
 
   std::vector<std::string> keys_;
-  signals::TopicNames topics_;  // of the log, and derived ones
+  signals::TopicNames topics_;  // topics in the log, and derived ones
 };
 
 }  // namespace sinew::analysis

@@ -41,7 +41,7 @@ class Numbers {
   std::vector<std::string> units_;
   std::vector<double> values_;
   std::vector<std::size_t> key_of_;  // for each visited field; `absent`: it is not set
-  std::uint64_t hash_ = 0;           // of the paths of all visited fields
+  std::uint64_t hash_ = 0;           // hashed paths of all visited fields
 };
 
 // Returns whether two experiments have the same values, to the bit.

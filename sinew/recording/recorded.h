@@ -24,7 +24,7 @@ struct Clock {
   std::optional<std::int64_t> origin;
   bool has_date = true;
   std::optional<std::int64_t> zone = {};  // local minus UTC [ns]; absent: the file gives no zone
-  std::vector<Heading> headings = {};     // of a table's columns with the times
+  std::vector<Heading> headings = {};     // headings of columns with the times
 
   // Returns whether a user may call the clock, or one of its columns, by this name.
   bool is_called(std::string_view name) const {

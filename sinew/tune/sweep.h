@@ -121,7 +121,7 @@ struct Options {
   bool checked = false;         // checked by an earlier sweep that differs in the sample's points
                                 // alone
   std::vector<Row> known = {};  // rows of an earlier sweep, which are not run again
-  // What earlier sweeps of the same experiment, settings and keys have read; empty: nothing.
+  // Files that earlier sweeps of the same experiment, settings and keys have read; empty: none.
   std::shared_ptr<run::Ensembles> runs = {};
 };
 

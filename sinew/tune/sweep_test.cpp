@@ -152,7 +152,7 @@ TEST(Sweep, StopsAfterTheRunsThatHaveBegun) {
   std::size_t told = 0;
   Sweep steps = gains();
   steps.axes = {
-      parse_axis("sequence.repeat=2,1,4,3")};  // of two side by side, the shorter begins first
+      parse_axis("sequence.repeat=2,1,4,3")};  // the shorter of two side by side begins first
   const auto rows_of = [&](int lanes) {
     stop = false;
     told = 0;

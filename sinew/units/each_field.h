@@ -177,7 +177,7 @@ class EachField {
   Function function_;
   Items items_;
   std::string prefix_;  // path of the visited table, with a dot
-  std::string path_;    // of the visited field
+  std::string path_;    // path to the visited field
   std::size_t depth_ = 0;
   Conflict conflict_;
 };

@@ -132,7 +132,7 @@ std::shared_ptr<const Ensemble> Ensembles::ensemble(const std::string& experimen
     const std::lock_guard lock(mutex_);
     for (const std::string& key : unknown) fixed_.insert({experiment, key});
     if (!unknown.empty()) continue;
-    if (split.keys.empty()) return made;  // of this run alone
+    if (split.keys.empty()) return made;  // serves this run alone
     if (ensembles_.size() >= most) ensembles_.clear();
     return ensembles_.try_emplace(std::move(name), std::move(made)).first->second;
   }

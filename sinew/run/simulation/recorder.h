@@ -90,7 +90,7 @@ class Recorder {
   signals::Times row_time_ns_;           // times of all numbers below
   std::vector<signals::Column> values_;  // one column per number of a row
   std::vector<Edges> edges_;             // one per valve
-  std::size_t most_edges_ = 0;           // of a valve
+  std::size_t most_edges_ = 0;           // room for a valve's edges
   bool complete_ = true;
 
   std::size_t number_ = 0;  // in the row, of the next put()

@@ -304,7 +304,7 @@ class Loop {
 
   const Tuning& tuning_;
   const TuneOptions& options_;
-  std::shared_ptr<run::Ensembles> ensembles_;  // of all generations
+  std::shared_ptr<run::Ensembles> ensembles_;  // shared by all generations
   OptimizerMethod method_;
   Tuned out_;
 };
