@@ -18,8 +18,9 @@ using Action = std::function<ExitCode()>;
 using Add = void(CLI::App& app, Action& action);
 Add add_run, add_analyze, add_report, add_compare, add_export, add_import, add_replay, add_sweep,
     add_tune, add_merge, add_sensitivity, add_show, add_keys, add_check, add_migrate, add_actuator,
-    add_valve, add_kinematics, add_identify, add_figures, add_film, add_view, add_bring_up,
-    add_firmware, add_force_beam, add_fmu, add_doctor, add_list, add_new, add_completion, add_help;
+    add_valve, add_kinematics, add_design, add_identify, add_figures, add_film, add_view,
+    add_bring_up, add_firmware, add_force_beam, add_fmu, add_doctor, add_list, add_new,
+    add_completion, add_help;
 
 // Returns a new subcommand of `app` with its one line of description and the example that ends its
 // help: one line, or several with two blanks before each but the first.

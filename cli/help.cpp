@@ -31,7 +31,7 @@ constexpr Task tasks[] = {
     {"Vary and tune", "sweep tune sensitivity merge", "sinew tune studies/faster-walk.toml"},
     {"Work with files and their keys", "new list keys show check migrate",
      "sinew new robot my-arm --metric"},
-    {"Calculate", "actuator valve kinematics force-beam",
+    {"Calculate", "actuator valve kinematics force-beam design",
      "sinew actuator robots/leg/actuator.toml --length \"3 in\" --pressure \"60 psi gauge\""},
     {"Drive hardware, and other programs", "doctor bring-up firmware fmu", "sinew doctor"},
 };

@@ -28,14 +28,6 @@ namespace sinew::cli {
 
 namespace {
 
-// A file that --force replaces: one that contains `mark`, blanks not counted. Other files stay,
-// such as measurements of another origin.
-struct Replaceable {
-  std::string_view what, name;  // "page of `sinew identify`", "such a page"
-  std::string_view mark;
-  std::string_view ending = "";  // recommended, ".csv"
-  std::string_view otherwise = "another one";
-};
 constexpr Replaceable page_file{"page of `sinew identify`", "such a page", "\"sinew.fit/", "",
                                 "another one, or --no-report"};
 constexpr Replaceable parameter_file{"parameter file", "a parameter file", "format=\"sinew.",
@@ -111,7 +103,7 @@ constexpr MethodHelp methods[] = {
 using Row = identify::Setting;
 
 // Refuses what concerns the parameter file alone where none is written. A visitor.
-struct NeedsOut : identify::RowVisitor<NeedsOut> {
+struct NeedsOut : config::RowVisitor<NeedsOut> {
   void row(const Row& row, const std::string& value) const {
     if (row.is_of_file && !value.empty())
       config::fail({"--" + std::string(row.name), 0, 0}, "", "no --out",
@@ -248,21 +240,6 @@ std::string page_of(const ResultOptions& options) {
   return std::filesystem::path(options.out).replace_extension(".html").string();
 }
 
-// Throws config::Error for a file that exists already, before the work begins; with `force` only if
-// the file is not replaceable or one of `inputs`.
-void refuse_to_replace(const std::string& path, bool force, const Replaceable& old,
-                       const std::vector<std::string>& inputs = {}) {
-  run::refuse_to_overwrite(path, force, {inputs.begin(), inputs.end()}, old.ending);
-  if (!std::filesystem::exists(path) || log::is_written_directly(path)) return;
-  std::ifstream in(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  std::erase(text, ' ');
-  if (text.find(old.mark) == text.npos)
-    config::fail({path, 0, 0}, "", fmt::format("something that is no {}", old.what),
-                 fmt::format("an unused name, or that of {}", old.name),
-                 std::string(old.otherwise));
-}
-
 // Refuses files that exist already, before the work begins.
 void check_outputs(const ResultOptions& options, const Replaceable& out = parameter_file,
                    const std::vector<std::string>& inputs = {}) {
@@ -276,12 +253,6 @@ void check_outputs(const ResultOptions& options, const Replaceable& out = parame
   if (!options.out.empty()) refuse_to_replace(options.out, options.force, out, inputs);
 }
 
-void write_output(const std::string& file, const std::string& text, const ResultOptions& options) {
-  if (file.empty()) return;
-  run::write_file(file, text);
-  Messages(options.quiet).note(fmt::format("{}: written", file));
-}
-
 // Writes the files of further muscles next to that of the first one.
 void write_further(const identify::Found& found, const ResultOptions& options) {
   const std::filesystem::path out(options.out);
@@ -291,7 +262,7 @@ void write_further(const identify::Found& found, const ResultOptions& options) {
     const std::string file =
         out.parent_path() / (out.stem().string() + suffix + out.extension().string());
     refuse_to_replace(file, options.force, parameter_file);
-    write_output(file, found.file(file, i), options);
+    write_output(file, found.file(file, i), options.quiet);
   }
 }
 
@@ -310,7 +281,7 @@ void check_second_file(const Options<Settings>& options) {
 void write_second_file(const identify::Found&, const ResultOptions&) {}
 
 void write_second_file(const identify::JointFound& found, const ResultOptions& options) {
-  write_output(options.second_file, found.file(options.second_file, 1), options);
+  write_output(options.second_file, found.file(options.second_file, 1), options.quiet);
 }
 
 // The compensated table, where the delays are known.
@@ -365,12 +336,12 @@ ExitCode report(const identify::Found& found, const DataOptions& data,
   const Messages messages(options.quiet);
   for (const std::string& note : found.remarks.notes) messages.note(note);
   for (const std::string& warning : found.remarks.warnings) messages.warning(warning);
-  if (!file.empty()) write_output(options.out, file, options);
+  if (!file.empty()) write_output(options.out, file, options.quiet);
   const double atmosphere = identify::atmosphere_setting(data.atmosphere);
   const std::string page = page_of(options);
   if (!page.empty() && !found.reports.empty())
     write_output(page, found.page(sources_of(data), atmosphere, SINEW_VERSION, options.out),
-                 options);
+                 options.quiet);
   if (options.json)
     fmt::print("{}\n", found.json.text(2));
   else

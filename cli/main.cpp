@@ -70,7 +70,7 @@ constexpr Entry commands[] = {
   {"identify", add_identify},       {"figures", add_figures},         {"film", add_film},
   {"fmu", add_fmu},                 {"force-beam", add_force_beam},   {"doctor", add_doctor},
   {"list", add_list},               {"new", add_new},                 {"completion", add_completion},
-  {"help", add_help},
+  {"help", add_help},               {"design", add_design},
 };
 // clang-format on
 

@@ -9,6 +9,7 @@
 
 #include "cli/command.h"
 #include "sinew/config/node.h"
+#include "sinew/config/setting_rows.h"
 #include "sinew/config/shown_units.h"
 #include "sinew/identify/task/settings.h"
 #include "sinew/recording/mapping.h"
@@ -59,12 +60,31 @@ using Pairs = std::vector<std::pair<std::string, std::string>>;
 Pairs pairs_of(const char* option, const std::vector<std::string>& texts,
                Equals separator = Equals::first, const char* expected = "name=value");
 
+// --- files that are written ---
+
+// A file that --force replaces: one that contains `mark`, blanks not counted. Other files stay,
+// such as measurements of another origin.
+struct Replaceable {
+  std::string_view what, name;  // "page of `sinew identify`", "such a page"
+  std::string_view mark;
+  std::string_view ending = "";  // recommended, ".csv"
+  std::string_view otherwise = "another one";
+};
+
+// Throws config::Error for a file that exists already, before the work begins; with `force` only if
+// the file is not replaceable or one of `inputs`.
+void refuse_to_replace(const std::string& path, bool force, const Replaceable& old,
+                       const std::vector<std::string>& inputs = {});
+
+// Writes a file of this name, if it is not empty, and prints a note.
+void write_output(const std::string& file, const std::string& text, bool quiet);
+
 // --- the settings of a method as options ---
 
-// Adds an option for each row. A visitor of identify/task/settings.h.
-class SettingOptions : public identify::RowVisitor<SettingOptions> {
+// Adds an option for each row. A visitor of config/setting_rows.h.
+class SettingOptions : public config::RowVisitor<SettingOptions> {
  public:
-  using Row = identify::Setting;
+  using Row = config::Setting;
   explicit SettingOptions(CLI::App& sub) : sub_(sub) {}
 
   void row(const Row& row, std::string& value);

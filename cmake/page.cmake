@@ -27,6 +27,7 @@ else()
 std::string_view sinew::report::page_template() { return {}; }
 std::string_view sinew::report::comparison_template() { return {}; }
 std::string_view sinew::report::fit_template() { return {}; }
+std::string_view sinew::report::design_template() { return {}; }
 std::string_view sinew::report::study_template() { return {}; }
 std::string_view sinew::report::run_list_template() { return {}; }
 ")

@@ -63,6 +63,7 @@ if (out.endsWith('.cpp'))
     as_cpp('page_template', run) +
     as_cpp('comparison_template', page_of('compare.html', 'compare.css', 'compare.js')) +
     as_cpp('fit_template', page_of('fit.html', 'style.css', 'fit.js')) +
+    as_cpp('design_template', page_of('design.html', 'style.css', 'design.js')) +
     as_cpp('study_template', page_of('study.html', 'study.css', 'study.js', '@connect@')) +
     as_cpp('run_list_template', page_of('run_list.html', 'run_list.css', 'run_list.js', '@connect@')));
 else

@@ -36,6 +36,7 @@ void bind_laws(py::module_& m);
 void bind_muscle(py::module_& m);
 void bind_identify(py::module_& m);
 void bind_identify_tables(py::module_& m);
+void bind_design(py::module_& m);
 void bind_fmu(py::module_& m);
 void bind_figures(py::module_& m);
 

@@ -23,4 +23,5 @@ PYBIND11_MODULE(_sinew, m) {
   sinew::python::bind_fmu(m);
   sinew::python::bind_figures(m);
   sinew::python::bind_identify_tables(m);
+  sinew::python::bind_design(m);
 }

@@ -1,6 +1,7 @@
 """Results of the methods of identification."""
 
 import dataclasses
+import inspect
 import os
 from typing import Any, Dict, Optional, Sequence, Union
 
@@ -11,6 +12,18 @@ from sinew._tables import Path
 def _write(path: Path, text: str, force: bool) -> None:
     with open(path, "w" if force else "x", encoding="utf-8") as file:
         file.write(text)
+
+
+def settings_text(doc: str, rows: Sequence[Dict[str, Any]]) -> str:
+    """Return a docstring that ends with a line for each setting of a method."""
+    lines = [inspect.cleandoc(doc), ""]
+    for row in rows:
+        unit = f" [{row['unit']}]" if "unit" in row else ""
+        words = row.get("words", ())
+        words = f": {', '.join(words)}" if any(word not in row["doc"] for word in words) else ""
+        usual = f"; default: {row['default']}" if "default" in row else ""
+        lines.append(f"{row['keyword']}{unit}: {row['doc']}{words}{usual}.")
+    return "\n".join(lines)
 
 
 class Found:

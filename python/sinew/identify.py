@@ -25,14 +25,13 @@ The settings of a method are described only in the library, from which the last 
 taken; None, "" and () leave a setting at the library's default.
 """
 
-import inspect
 import os
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, TypeVar, Union
 
 import numpy.typing
 
 from sinew import _sinew
-from sinew._found import Checked, Found, Joint, Plan, Static, Valve
+from sinew._found import Checked, Found, Joint, Plan, Static, Valve, settings_text
 from sinew._sinew import RefusalError
 from sinew._tables import Path, Table, like, parts_of, tables_of
 
@@ -77,14 +76,7 @@ def _of(method: str) -> Callable[[Function], Function]:
     """Return a decorator that ends a docstring with a line for each setting of the method."""
 
     def described(function: Function) -> Function:
-        lines = [inspect.cleandoc(function.__doc__ or ""), ""]
-        for row in _sinew.identify_settings(method):
-            unit = f" [{row['unit']}]" if "unit" in row else ""
-            words = row.get("words", ())
-            words = f": {', '.join(words)}" if any(word not in row["doc"] for word in words) else ""
-            usual = f"; default: {row['default']}" if "default" in row else ""
-            lines.append(f"{row['keyword']}{unit}: {row['doc']}{words}{usual}.")
-        function.__doc__ = "\n".join(lines)
+        function.__doc__ = settings_text(function.__doc__ or "", _sinew.identify_settings(method))
         return function
 
     return described

@@ -34,4 +34,12 @@ UnitsToShow units_to_show(const UnitsRequest& request, const units::ShownUnits& 
   return out;
 }
 
+TextOptions::Shown TextOptions::shown(double number, const std::string& unit) const {
+  const auto held = units.is_requested ? units::read_quantity_unit(unit, atmosphere) : std::nullopt;
+  if (!held) return {number, unit, 1};
+  const units::ShownUnit to =
+      units.units.of(held->stored, units::ShownUnits::unknown_size, atmosphere);
+  return {to.of(held->unit.back(number)), to.name, to.scale / held->unit.scale};
+}
+
 }  // namespace sinew::config

@@ -10,11 +10,13 @@
 // choices, "pressure=kPa gauge", which leave other quantities to the weaker levels.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/node.h"
+#include "sinew/units/constants.h"
 #include "sinew/units/field.h"
 #include "sinew/units/report_conflict.h"
 #include "sinew/units/shown.h"
@@ -39,6 +41,23 @@ struct UnitsToShow {
 
 // Returns the units in which to show numbers. Throws Error with the place of an invalid text.
 UnitsToShow units_to_show(const UnitsRequest& request, const units::ShownUnits& otherwise = {});
+
+// How a result is printed.
+struct TextOptions {
+  UnitsToShow units = {};                 // chosen ones; else each number has the result's own
+  double atmosphere = units::atmosphere;  // reference of gauges [Pa]
+  std::size_t width = 0;                  // letters in a line; 0: any number
+
+  // A number in the unit in which it is shown.
+  struct Shown {
+    double number;
+    std::string unit;  // "1": none
+    double scale;      // factor of differences
+  };
+
+  // Returns the number in the chosen unit; unchanged where none was chosen or none exists.
+  Shown shown(double number, const std::string& unit) const;
+};
 
 // Reads a text as units::read_shown_units does; throws Error that begins with `where` and `key`.
 units::ShownUnits parse_shown_units(std::string_view text, const Location& where,

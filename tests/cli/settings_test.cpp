@@ -28,7 +28,7 @@ TEST(Settings, AreReportedAsOptions) {
 }
 
 // Those that have a range or choices. A text file may have a key of another's name, "actuator".
-struct IsOption : identify::RowVisitor<IsOption> {
+struct IsOption : config::RowVisitor<IsOption> {
   void row(const identify::Setting& row, const std::string&) const { expect(row); }
   void row(const identify::Setting& row, int) const { expect(row); }
   void row(const identify::Setting&, const auto&) const {}

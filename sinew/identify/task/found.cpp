@@ -15,14 +15,6 @@
 
 namespace sinew::identify {
 
-TextOptions::Shown TextOptions::shown(double number, const std::string& unit) const {
-  const auto held = units.is_requested ? units::read_quantity_unit(unit, atmosphere) : std::nullopt;
-  if (!held) return {number, unit, 1};
-  const units::ShownUnit to =
-      units.units.of(held->stored, units::ShownUnits::unknown_size, atmosphere);
-  return {to.of(held->unit.back(number)), to.name, to.scale / held->unit.scale};
-}
-
 std::string digits(double value, const char* format) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
 }

@@ -21,21 +21,7 @@
 
 namespace sinew::identify {
 
-struct TextOptions {
-  config::UnitsToShow units = {};         // chosen ones; else each number has the method's own
-  double atmosphere = units::atmosphere;  // reference of gauges [Pa]
-  std::size_t width = 0;                  // letters in a line; 0: any number
-
-  // A number in the unit in which it is shown.
-  struct Shown {
-    double number;
-    std::string unit;  // "1": none
-    double scale;      // factor of differences
-  };
-
-  // Returns the number in the chosen unit; unchanged where none was chosen or none exists.
-  Shown shown(double number, const std::string& unit) const;
-};
+using config::TextOptions;
 
 // Appends formatted text.
 template <class... Arguments>

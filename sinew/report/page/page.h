@@ -58,6 +58,7 @@ std::string fill(std::string_view page_template, const Content& content);
 std::string_view page_template();        // one run
 std::string_view comparison_template();  // several runs
 std::string_view fit_template();         // an identification
+std::string_view design_template();      // a design
 std::string_view study_template();       // a sweep or a tuning, or two of them
 std::string_view run_list_template();    // the runs in a folder
 

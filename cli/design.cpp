@@ -1,0 +1,103 @@
+// cli/design.cpp - `sinew design`: from what a robot has to do to its parts.
+//
+// The options of a calculation come from the rows of its settings (design/settings.fields.h).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/option_groups.h"
+#include "cli/settings.h"
+#include "cli/terminal.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/design/methods.h"
+#include "sinew/report/page/page.h"
+
+namespace sinew::cli {
+
+namespace {
+
+constexpr Replaceable design_page{"page of `sinew design`", "such a page", "\"sinew.design_page/"};
+constexpr Replaceable robot_file{"robot file", "a robot file", "format=\"sinew.", ".toml"};
+
+// Holds the parts of a calculation's help that are not its settings; `out`: the file that it
+// writes, empty: none.
+struct DesignHelp {
+  std::string_view method, example, out = "";
+};
+constexpr DesignHelp designs[] = {
+    {"joint",
+     "sinew design joint --actuator robots/leg/actuator.toml --torque \"20 lbf in\" --angles "
+     "\"40 deg\" --motion \"80 deg\" --pressure \"100 psi gauge\" --moment-arm \"1 in\"",
+     "FILE: robot file to write, over that of --base"},
+};
+
+template <class Settings>
+struct DesignOptions : Flags {
+  Settings settings;
+  std::string out, report, units;
+};
+
+// Returns the chosen units, else metric ones.
+config::UnitsToShow design_units(const std::string& option) {
+  config::UnitsToShow out = chosen_units(option, units::UnitSet::metric);
+  out.is_requested = true;
+  return out;
+}
+
+template <class Settings>
+ExitCode run_design(const DesignOptions<Settings>& options) {
+  if (!options.report.empty()) {
+    report::require_page(options.report);
+    refuse_to_replace(options.report, options.force, design_page);
+  }
+  if (!options.out.empty()) refuse_to_replace(options.out, options.force, robot_file);
+  const design::Result result = design::design(options.settings);
+  const Messages messages(options.quiet);
+  for (const std::string& warning : result.warnings) messages.warning(warning);
+  if (result.refused.empty() && !options.out.empty()) {
+    if (!result.file)
+      config::fail({"--out", 0, 0}, "", "no --base", "the robot file whose joint is designed");
+    write_output(options.out, result.file(options.out), options.quiet);
+  }
+  if (!options.report.empty())
+    write_output(options.report, design::page_of(result, units::atmosphere, SINEW_VERSION),
+                 options.quiet);
+  if (options.json)
+    fmt::print("{}\n", design::to_json(result).text(2));
+  else if (result.refused.empty())
+    fmt::print("{}", as_options(design::text_of(result, {design_units(options.units),
+                                                         units::atmosphere, width_of_output()})));
+  if (!result.refused.empty()) error(result.refused);
+  return result.refused.empty() ? ok : failed;
+}
+
+template <class Settings>
+void add_calculation(CLI::App& app, Action& action) {
+  auto options = std::make_shared<DesignOptions<Settings>>();
+  const config::MethodRow row = config::SettingList(options->settings).of;
+  const DesignHelp& help = *std::ranges::find(designs, row.name, &DesignHelp::method);
+  CLI::App& sub =
+      subcommand(app, std::string(row.name), std::string(row.doc), std::string(help.example));
+  SettingOptions rows(sub);
+  fields(rows, options->settings);
+  if (!help.out.empty()) sub.add_option("-o,--out", options->out, std::string(help.out));
+  sub.add_option("--report", options->report, "FILE: page to write, with tables and plots");
+  add_units(sub, options->units, "printed numbers (default: metric); --json is in SI");
+  add_flags(sub, *options, "replace an existing file", "print the result as JSON, in SI",
+            "print only the result and errors");
+  sub.callback([options, &action] { action = [options] { return run_design(*options); }; });
+}
+
+}  // namespace
+
+void add_design(CLI::App& app, Action& action) {
+  CLI::App& sub = subcommand(app, "design", "Choose muscles, valves and air for a robot on paper",
+                             std::string(designs[0].example));
+  sub.require_subcommand();
+  design::for_each_design(
+      [&]<class Settings>(const Settings&) { add_calculation<Settings>(sub, action); });
+}
+
+}  // namespace sinew::cli

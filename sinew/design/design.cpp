@@ -1,0 +1,156 @@
+#include "sinew/design/design.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "sinew/report/page/design_page.h"
+#include "sinew/report/text/text_table.h"
+
+namespace sinew::design {
+
+namespace {
+
+using config::TextOptions;
+using report::TextTable;
+
+Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+std::string digits(double value) {
+  return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-";
+}
+
+std::string shown_unit(const TextOptions::Shown& shown) {
+  return shown.unit == "1" ? "" : shown.unit;
+}
+
+void put_values(std::string& out, const Result& result, const TextOptions& how) {
+  using enum TextTable::Align;
+  TextTable table({"", "value", "unit", "from", "to", ""}, {left, right, left, right, right, left});
+  for (const Value& v : result.values) {
+    const TextOptions::Shown shown = how.shown(v.number, v.unit);
+    const auto bound = [&](double x) {
+      return std::isfinite(x) ? digits(how.shown(x, v.unit).number) : std::string();
+    };
+    table.add(
+        {v.name, digits(shown.number), shown_unit(shown), bound(v.low), bound(v.high), v.note});
+  }
+  out += table.text_within(how.width);
+}
+
+std::string text_of(const Cell& cell, const std::string& unit, const TextOptions& how) {
+  if (const auto* words = std::get_if<std::string>(&cell)) return *words;
+  return digits(how.shown(std::get<double>(cell), unit).number);
+}
+
+// Returns whether the first row has words in this column.
+bool has_words(const Table& table, std::size_t column) {
+  return !table.rows.empty() && std::holds_alternative<std::string>(table.rows[0][column]);
+}
+
+void put_table(std::string& out, const Table& table, const TextOptions& how) {
+  std::vector<std::string> heads;
+  std::vector<TextTable::Align> align;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const Column& c = table.columns[i];
+    const std::string unit = shown_unit(how.shown(0, c.unit));
+    heads.push_back(unit.empty() ? c.name : fmt::format("{} [{}]", c.name, unit));
+    align.push_back(has_words(table, i) ? TextTable::Align::left : TextTable::Align::right);
+  }
+  TextTable lines(heads, align);
+  for (std::size_t r = 0; r < std::min(table.rows.size(), table.shown); ++r) {
+    std::vector<std::string> row;
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+      row.push_back(text_of(table.rows[r][i], table.columns[i].unit, how));
+    lines.add(row);
+  }
+  fmt::format_to(std::back_inserter(out), "\n{}\n{}", table.title, lines.text_within(how.width));
+  if (table.rows.size() > table.shown)
+    fmt::format_to(std::back_inserter(out), "… and {} more rows, in json=true and on the page\n",
+                   table.rows.size() - table.shown);
+}
+
+}  // namespace
+
+const Value& Result::of(const std::string& key) const {
+  const auto at = std::ranges::find(values, key, &Value::key);
+  if (at == values.end()) throw std::out_of_range("no value " + key);
+  return *at;
+}
+
+std::string text_of(const Result& result, const TextOptions& how) {
+  std::string out = result.title + "\n\n";
+  if (!result.values.empty()) put_values(out, result, how);
+  for (const Table& table : result.tables)
+    if (!table.rows.empty()) put_table(out, table, how);
+  if (!result.notes.empty()) out += "\n";
+  for (const std::string& note : result.notes) out += "note: " + note + "\n";
+  if (!result.unseen.empty()) out += "\nwhat this does not show:\n";
+  for (const std::string& text : result.unseen) out += "  " + text + "\n";
+  return out;
+}
+
+Json to_json(const Result& result) {
+  Json out{{"format", "sinew.design/1"}, {"design", result.method}, {"title", result.title}};
+  for (const Value& v : result.values) {
+    out[v.key] = number_json(v.number);
+    if (std::isfinite(v.low)) out[v.key + "_low"] = v.low;
+    if (std::isfinite(v.high)) out[v.key + "_high"] = v.high;
+  }
+  for (const Table& table : result.tables) {
+    Json rows = Json::array();
+    for (const auto& row : table.rows) {
+      Json one = Json::object();
+      for (std::size_t i = 0; i < table.columns.size(); ++i) {
+        const auto* words = std::get_if<std::string>(&row[i]);
+        one[table.columns[i].key] = words ? Json(*words) : number_json(std::get<double>(row[i]));
+      }
+      rows.push_back(std::move(one));
+    }
+    out[table.key] = std::move(rows);
+  }
+  if (!result.refused.empty()) out["refused"] = result.refused;
+  out["notes"] = result.notes;
+  out["warnings"] = result.warnings;
+  out["does_not_show"] = result.unseen;
+  return out;
+}
+
+std::string page_of(const Result& result, double atmosphere, const std::string& version) {
+  Json values = Json::array(), tables = Json::array();
+  for (const Value& v : result.values)
+    values.push_back({{"key", v.key},
+                      {"name", v.name},
+                      {"value", number_json(v.number)},
+                      {"unit", v.unit},
+                      {"low", number_json(v.low)},
+                      {"high", number_json(v.high)},
+                      {"note", v.note}});
+  for (const Table& table : result.tables) {
+    Json columns = Json::array(), rows = Json::array();
+    for (const Column& c : table.columns) columns.push_back({{"name", c.name}, {"unit", c.unit}});
+    for (const auto& row : table.rows) {
+      Json cells = Json::array();
+      for (const Cell& cell : row) {
+        const auto* words = std::get_if<std::string>(&cell);
+        cells.push_back(words ? Json(*words) : number_json(std::get<double>(cell)));
+      }
+      rows.push_back(std::move(cells));
+    }
+    tables.push_back({{"title", table.title}, {"columns", columns}, {"rows", rows}});
+  }
+  return report::page(report::DesignPage{.title = result.title,
+                                         .version = version,
+                                         .atmosphere = atmosphere,
+                                         .values = values,
+                                         .tables = tables,
+                                         .plots = result.plots,
+                                         .refused = result.refused,
+                                         .notes = result.notes,
+                                         .warnings = result.warnings,
+                                         .unseen = result.unseen});
+}
+
+}  // namespace sinew::design

@@ -1,0 +1,20 @@
+// design/methods.h - the design calculations: a result for the settings of settings.fields.h. All
+// throw config::Error for a setting or a file that cannot be used.
+#pragma once
+
+#include "sinew/design/design.h"
+#include "sinew/design/settings.fields.h"
+
+namespace sinew::design {
+
+// Calls `each` with default settings of every calculation, in the order of their help.
+template <class Each>
+void for_each_design(const Each& each) {
+  each(JointSettings{});
+}
+
+// Returns the feasible joints as a table, and the one with the fewest muscles; of these, the one
+// that needs the least air per stroke. The result has a robot file if `base` is set.
+Result design(const JointSettings& settings);
+
+}  // namespace sinew::design

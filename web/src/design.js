@@ -1,0 +1,57 @@
+// Page of a design: its numbers with their intervals, plots, tables of all candidates, and remarks.
+import { Appearance } from './appearance.js';
+import { Charts } from './charts.js';
+import { by_id, chip, element, start_page } from './page.js';
+import { cell, heading, table } from './tables.js';
+import { number, Units } from './units.js';
+
+const label_of = (name, unit, units) => {
+  const { label } = units.of(unit);
+  return label ? `${name} [${label}]` : name;
+};
+const list = (title, texts, kind) => texts.length
+  ? element('div', {}, element('h3', {}, title), element('ul', { class: 'warnings' }, ...texts.map((text) => element('li', { class: kind }, element('p', {}, text)))))
+  : '';
+
+class DesignPage {
+  constructor(run) {
+    this.run = run;
+    this.units = new Units(run.atmosphere);
+    by_id('title').textContent = run.title;
+    by_id('about').textContent = '';
+    by_id('facts').textContent = `Sinew ${run.version}`;
+    this.values = element('div', {});
+    const charts = element('div', {});
+    by_id('result').append(heading('Result'),
+      run.refused ? element('p', { class: 'hint not-pinned' }, run.refused) : '',
+      this.values, charts, list('Warnings', run.warnings, ''), list('Remarks', run.notes, 'remark'),
+      list('What this does not show', run.unseen, 'remark'));
+    this.refresh();
+    this.charts = run.charts.length ? new Charts(charts, run.charts, [], this.units, run.title) : null;
+    if (run.warnings.length) by_id('chips').append(chip('result', `${run.warnings.length} warning${run.warnings.length > 1 ? 's' : ''}`, 'warn'));
+    this.appearance = new Appearance(this.units, {
+      on_units: () => (this.refresh(), this.charts?.rebuild()),
+      on_colors: () => this.charts?.rebuild(),
+      on_print: (begins) => this.charts?.print(begins),
+    });
+  }
+
+  // Updates all numbers in the current units.
+  refresh() {
+    const { run, units } = this;
+    const shown = (value, unit) => (value === null ? '–' : number(units.convert(value, unit)));
+    const rows = run.values.map((v) => element('tr', { 'data-key': v.key, 'data-value': v.value },
+      element('th', { scope: 'row', class: 'key' }, v.name), cell(shown(v.value, v.unit), 'number ours'),
+      cell(units.of(v.unit).label, 'unit'),
+      cell(v.low === null ? '' : shown(v.low, v.unit), 'number'), cell(v.high === null ? '' : shown(v.high, v.unit), 'number'),
+      cell(v.note, 'source')));
+    this.values.replaceChildren(rows.length ? table('Values', ['', 'value', '', 'from', 'to', ''], rows) : '');
+    const cells = (row, columns) => columns.map((c, i) =>
+      typeof row[i] === 'string' ? cell(row[i], '') : cell(shown(row[i], c.unit), 'number'));
+    by_id('tables').replaceChildren(...run.tables.filter((t) => t.rows.length).flatMap((t) => [heading(t.title, String(t.rows.length)),
+      table(t.title, t.columns.map((c) => label_of(c.name, c.unit, units)), t.rows.map((row) => element('tr', {}, ...cells(row, t.columns))))]));
+    by_id('tables').hidden = !run.tables.some((t) => t.rows.length);
+  }
+}
+
+start_page((run) => ({ run, page: new DesignPage(run), number }));
