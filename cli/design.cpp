@@ -58,7 +58,8 @@ ExitCode run_design(const DesignOptions<Settings>& options) {
   for (const std::string& warning : result.warnings) messages.warning(warning);
   if (result.refused.empty() && !options.out.empty()) {
     if (!result.file)
-      config::fail({"--out", 0, 0}, "", "no --base", "the robot file whose joint is designed");
+      config::fail({"--out", 0, 0}, "", "no robot file to write",
+                   "--base, the robot file whose joint is designed, and the muscle as in its file");
     write_output(options.out, result.file(options.out), options.quiet);
   }
   if (!options.report.empty())

@@ -30,7 +30,10 @@ void SettingValues::row(const Setting& row, const std::string& value) {
   }
   if (row.unit.empty()) return;
   quantities_.emplace_back(&value, row);
-  (void)each(value, at_commas(value).size());
+  if (row.kind == Kind::quantities)
+    (void)each(value, at_commas(value).size());
+  else if (!value.empty())
+    (void)of(value);
 }
 
 void SettingValues::row(const Setting& row, double value) {

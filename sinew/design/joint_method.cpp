@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <filesystem>
 #include <optional>
 
 #include "sinew/config/diagnostics.h"
@@ -12,7 +12,9 @@
 #include "sinew/design/methods.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/actuator/static_predict.h"
+#include "sinew/identify/contest/provenance.h"
 #include "sinew/units/constants.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::design {
 
@@ -247,6 +249,51 @@ report::Plot margin_plot(const std::vector<Candidate>& all, const JointTask& tas
   return out;
 }
 
+// Returns the robot's file over `base`: the joint with this arm, and its two muscles.
+std::string robot_file(const JointSettings& s, const Candidate& c, double external_volume,
+                       const std::string& out) {
+  namespace fs = std::filesystem;
+  const experiment::MachineFile base = experiment::load_machine_file(s.base);
+  const robot::Robot& robot = base.experiment.robot;
+  const robot::Joint& joint = config::named(robot.joints, s.joint, "joint", "joint");
+  const std::string source = fmt::format("sinew design joint with {}", s.actuator);
+  const auto put = [&](config::Node& table, std::string_view key, double value, const char* unit) {
+    table.put(config::make_text(key, units::format_quantity(value, unit, unit, 10)));
+  };
+  config::Node joints = config::make_table("joint"), one = config::make_table(joint.name);
+  one.put(config::make_text("source", source));
+  put(one, "moment_arm", c.joint.moment_arm, "m");
+  joints.put(one);
+  config::Node muscles = config::make_table("muscle");
+  for (const robot::Muscle& m : robot.muscles) {
+    if (m.joint != joint.name || !m.second.joint.empty()) continue;
+    config::Node muscle = config::make_table(m.name);
+    muscle.put(config::make_text("source", source));
+    muscle.put(config::make_text("actuator", c.joint.actuator.name));
+    muscle.put(config::make_integer("count", c.joint.count));
+    put(muscle, "mount_length", c.joint.mount_length, "m");
+    put(muscle, "external_volume", external_volume, "m3");
+    const actuator::Bladder& bladder = c.joint.actuator.bladder;
+    if (std::isfinite(m.bladder_stiffness))
+      put(muscle, "bladder_stiffness", bladder.stiffness, "N/m");
+    if (std::isfinite(m.bladder_rest_length))
+      put(muscle, "bladder_rest_length", bladder.rest_length, "m");
+    muscles.put(muscle);
+  }
+  if (muscles.children.size() != 2)
+    config::fail({"joint", 0, 0}, "",
+                 fmt::format("{} muscles of this joint alone", muscles.children.size()),
+                 "a flexor and an extensor");
+  config::Node root = identify::robot_over(s.base, out);
+  config::Node files = config::make_table("files");
+  files.put(config::make_text(
+      "actuator", fs::absolute(s.actuator).lexically_relative(fs::absolute(out).parent_path())));
+  root.put(files);
+  root.put(joints);
+  root.put(muscles);
+  return config::to_toml(root);
+}
+
 std::string refusal(const Nearest& nearest, const JointTask& task, const JointSettings& s) {
   if (nearest.motion < task.motion)
     return fmt::format(
@@ -288,6 +335,14 @@ Result design(const JointSettings& s) {
   add_values(out, best, task, air);
   out.tables = {table_of(all, task)};
   out.plots = {torque_plot(best, task, air.atmosphere), margin_plot(all, task)};
+  if (!s.base.empty() && s.rest_length.empty())
+    out.file = [s, best, volume = task.external_volume](const std::string& path) {
+      return robot_file(s, best, volume, path);
+    };
+  if (!s.rest_length.empty())
+    out.notes.push_back(fmt::format(
+        "the actuator's file of this muscle: sinew identify scale {} rest_length=\"{}\"",
+        s.actuator, units::format_quantity(best.rest_length, "m", "mm")));
   out.notes.push_back("limited by: " + what_limits(best, task));
   if (!std::isfinite(best.weakest.torque.low))
     out.warnings.push_back("the actuator's file has no interval of its force: the margin has none");

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/design/methods.h"
 #include "sinew/identify/task/methods.h"
 #include "tests/cli/program.h"
 
@@ -41,6 +42,13 @@ struct IsOption : config::RowVisitor<IsOption> {
 
 TEST(Settings, OfAMethodOfIdentificationAreItsOptions) {
   identify::for_each_method([](auto settings) {
+    IsOption visitor;
+    fields(visitor, settings);
+  });
+}
+
+TEST(Settings, OfADesignAreItsOptions) {
+  design::for_each_design([](auto settings) {
     IsOption visitor;
     fields(visitor, settings);
   });
