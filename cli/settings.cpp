@@ -21,7 +21,7 @@ constexpr Renamed renamed[] = {
 constexpr std::string_view settings =
     " actuator added_volume align anyway arm base bits candidate columns conductance dates decimal "
     "diameter down drop_incomplete encoding exponent external_volume flexion flexor_length "
-    "force frequency full_scale hold_out keep_force known label largest law_error lever load "
+    "force frequency full_scale hold_out json keep_force known label largest law_error lever load "
     "machine model moment_arm most motion names offsets only part per_volume points port pressure "
     "range "
     "rate reading report rest rest_length root sensors shard spread_times thousands time torque "

@@ -42,7 +42,7 @@ struct UnitsToShow {
 // Returns the units in which to show numbers. Throws Error with the place of an invalid text.
 UnitsToShow units_to_show(const UnitsRequest& request, const units::ShownUnits& otherwise = {});
 
-// How a result is printed.
+// Options for printing a result.
 struct TextOptions {
   UnitsToShow units = {};                 // chosen ones; else each number has the result's own
   double atmosphere = units::atmosphere;  // reference of gauges [Pa]

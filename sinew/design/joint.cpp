@@ -7,6 +7,7 @@
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/operating_point.h"
 #include "sinew/actuator/prediction.h"
+#include "sinew/actuator/tension.h"
 
 namespace sinew::design {
 
@@ -69,12 +70,18 @@ Weakest weakest_torque(const JointDesign& joint, const JointTask& task, double o
   return out;
 }
 
-Stroke stroke_of(const actuator::Actuator& a) {
-  return {actuator::shortest_length(a), a.long_end.length};
+Stroke stroke_of(const actuator::Actuator& a, double pressure, double atmosphere) {
+  double low = actuator::shortest_length(a), high = a.long_end.length;
+  const double longest = high;
+  const auto pulls = [&](double length) {
+    return actuator::clamped_tension(a, length, 0, pressure, atmosphere) > 0;
+  };
+  if (pulls(low) || !pulls(high)) return {low, longest};
+  for (int i = 0; i < 60; ++i) (pulls(0.5 * (low + high)) ? high : low) = 0.5 * (low + high);
+  return {high, longest};
 }
 
-double motion_of(const JointDesign& joint, Arm arm) {
-  const Stroke stroke = stroke_of(joint.actuator);
+double motion_of(const JointDesign& joint, Arm arm, const Stroke& stroke) {
   const double s =
       std::min(joint.mount_length - stroke.shortest, stroke.longest - joint.mount_length);
   if (!(s > 0)) return 0;
@@ -109,8 +116,8 @@ double co_contraction_left(const JointDesign& joint, const JointTask& task, doub
   return low;
 }
 
-double best_mount_length(const JointDesign& joint, const JointTask& task, double atmosphere) {
-  const Stroke stroke = stroke_of(joint.actuator);
+double best_mount_length(const JointDesign& joint, const JointTask& task, const Stroke& stroke,
+                         double atmosphere) {
   const double half = std::max(task.motion, task.angles) / 2;
   const double way =
       joint.moment_arm * (task.arm == Arm::cam ? half : std::sin(std::min(half, 1.5)));

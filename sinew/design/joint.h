@@ -13,8 +13,9 @@
 //   r    moment arm [m]                       L_m  length of both muscles at the middle [m]
 //   F    tension, tension.h [N]               Q    bound of its dry friction, loss.h [N]
 //   p    gauge pressure of the muscle that pulls; the other one is vented [Pa]
-//   A    range of motion: one muscle is at its shortest, b/sqrt 3, or the other one's threads are
-//        stretched, L_max (4.2: "half the range of motion" on either side) [rad]
+//   A    range of motion: one muscle is fully contracted, L_min, where it does not pull at p, or
+//   the
+//        other one's threads are stretched, L_max (4.2) [rad]; L_min of the thesis's law: b/sqrt 3
 //   A_t  angles over which the torque is needed [rad]
 //   k    stiffness at constant pressure [26], and that of bladder and ends [N/m]
 //   m    air of one stroke at the temperature of the room [kg]; rho = P/(R T)
@@ -35,7 +36,7 @@ namespace sinew::design {
 // Names the mechanism at the joint.
 enum class Arm { cam, lever };
 
-// What a joint has to do.
+// Requirements of a joint.
 struct JointTask {
   double torque = 0;           // at each of the angles, in both directions [N m]
   double angles = 0;           // range over which it is needed [rad]
@@ -77,15 +78,15 @@ struct Weakest {
 Weakest weakest_torque(const JointDesign& joint, const JointTask& task, double opposed,
                        double atmosphere);
 
-// Returns the lengths between which the muscle works: fully contracted, and with stretched threads
-// [m].
+// Returns the lengths between which the muscle works: fully contracted at the task's pressure, and
+// with stretched threads [m].
 struct Stroke {
   double shortest = 0, longest = 0;
 };
-Stroke stroke_of(const actuator::Actuator& a);
+Stroke stroke_of(const actuator::Actuator& a, double pressure, double atmosphere);
 
 // Returns the range of motion without load [rad]; 0 if the joint cannot move.
-double motion_of(const JointDesign& joint, Arm arm);
+double motion_of(const JointDesign& joint, Arm arm, const Stroke& stroke);
 
 // Returns the stiffness at the middle with both muscles at a gauge pressure [N m/rad].
 double stiffness_at_middle(const JointDesign& joint, double pressure, double atmosphere);
@@ -99,6 +100,7 @@ double co_contraction_left(const JointDesign& joint, const JointTask& task, doub
 
 // Returns the mount length with the largest weakest torque among those that allow the motion [m];
 // NaN if none does.
-double best_mount_length(const JointDesign& joint, const JointTask& task, double atmosphere);
+double best_mount_length(const JointDesign& joint, const JointTask& task, const Stroke& stroke,
+                         double atmosphere);
 
 }  // namespace sinew::design

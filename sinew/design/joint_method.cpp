@@ -26,6 +26,7 @@ constexpr double unknown = Value::unknown;
 struct Candidate {
   JointDesign joint;
   double rest_length = unknown;  // [m]
+  Stroke stroke;
   Weakest weakest;
   double motion = 0, air = 0, opposed = 0;  // [rad], [kg], [Pa]
 };
@@ -71,12 +72,10 @@ std::vector<std::pair<double, actuator::Actuator>> family(const JointSettings& s
   return out;
 }
 
-std::vector<double> arms_of(const JointSettings& s, const JointTask& task,
-                            const actuator::Actuator& a) {
+std::vector<double> arms_of(const JointSettings& s, const JointTask& task, const Stroke& stroke) {
   if (!s.moment_arm.empty())
     return config::range_setting("moment_arm", s.moment_arm, "m", units::atmosphere, part_length)
         .si;
-  const Stroke stroke = stroke_of(a);
   const double half = task.motion / 2;
   const double most = (stroke.longest - stroke.shortest) / 2 /
                       (task.arm == Arm::cam ? half : std::sin(std::min(half, 1.5)));
@@ -85,7 +84,7 @@ std::vector<double> arms_of(const JointSettings& s, const JointTask& task,
   return out;
 }
 
-// What is nearest to being a design: its reason goes into the refusal.
+// The best of all candidates, which a refusal reports.
 struct Nearest {
   double share = 0;   // largest torque of all candidates / the torque of the task
   double motion = 0;  // largest range of motion [rad]
@@ -96,13 +95,13 @@ std::vector<Candidate> candidates(const JointSettings& s, const JointTask& task,
                                   const actuator::Actuator& own, const gas::Air& air,
                                   Nearest& nearest) {
   std::vector<Candidate> out;
-  for (const auto& [rest_length, a] : family(s, own, air.atmosphere))
-    for (const double arm : arms_of(s, task, a)) {
+  for (const auto& [rest_length, a] : family(s, own, air.atmosphere)) {
+    const Stroke stroke = stroke_of(a, task.pressure, air.atmosphere);
+    for (const double arm : arms_of(s, task, stroke)) {
       JointDesign one{a, 1, arm, 0};
-      const Stroke stroke = stroke_of(a);
       one.mount_length = 0.5 * (stroke.shortest + stroke.longest);
-      nearest.motion = std::max(nearest.motion, motion_of(one, task.arm));
-      one.mount_length = best_mount_length(one, task, air.atmosphere);
+      nearest.motion = std::max(nearest.motion, motion_of(one, task.arm, stroke));
+      one.mount_length = best_mount_length(one, task, stroke, air.atmosphere);
       if (!std::isfinite(one.mount_length)) continue;
       const double single = weakest_torque(one, task, 0, air.atmosphere).torque.value;
       nearest.share = std::max(nearest.share, s.most * single / task.torque);
@@ -110,15 +109,16 @@ std::vector<Candidate> candidates(const JointSettings& s, const JointTask& task,
       const double least = std::ceil(task.torque / single * (1 - 1e-12));
       for (int count = static_cast<int>(std::min<double>(least, s.most + 1)); count <= s.most;
            ++count) {
-        Candidate c{.joint = one, .rest_length = rest_length};
+        Candidate c{.joint = one, .rest_length = rest_length, .stroke = stroke};
         c.joint.count = count;
         c.weakest = weakest_torque(c.joint, task, 0, air.atmosphere);
-        c.motion = motion_of(c.joint, task.arm);
+        c.motion = motion_of(c.joint, task.arm, stroke);
         c.air = air_of_stroke(c.joint, task, air);
         c.opposed = co_contraction_left(c.joint, task, air.atmosphere);
         out.push_back(std::move(c));
       }
     }
+  }
   std::ranges::stable_sort(out, [](const Candidate& a, const Candidate& b) {
     return std::pair(a.joint.count, a.air) < std::pair(b.joint.count, b.air);
   });
@@ -134,9 +134,12 @@ const Candidate& choice(const std::vector<Candidate>& all, const JointTask& task
 }
 
 std::string what_limits(const Candidate& c, const JointTask& task) {
-  if (c.motion <= task.motion * 1.001) return "range of motion: the arm cannot be longer";
-  if (c.weakest.angle >= 0.49 * task.angles) return "torque where the muscle is shortest";
-  if (c.weakest.angle <= -0.49 * task.angles) return "torque where the muscle is longest";
+  JointDesign middle = c.joint;
+  middle.mount_length = 0.5 * (c.stroke.shortest + c.stroke.longest);
+  if (motion_of(middle, task.arm, c.stroke) <= task.motion * 1.1)
+    return "range of motion: the arm cannot be much longer";
+  if (c.weakest.angle >= 0.49 * task.angles) return "torque where the muscle is short";
+  if (c.weakest.angle <= -0.49 * task.angles) return "torque where the muscle is long";
   return fmt::format("torque at {:.3g} deg from the middle", c.weakest.angle / units::degree);
 }
 
@@ -159,12 +162,12 @@ void add_values(Result& out, const Candidate& c, const JointTask& task, const ga
   add({"torque_margin", "torque margin", c.weakest.torque.value / percent - 1, "1",
        c.weakest.torque.low / percent - 1, c.weakest.torque.high / percent - 1});
   add({"motion_rad", "range of motion", c.motion, "rad", unknown, unknown, "without a load"});
-  const Stroke stroke = stroke_of(j.actuator);
+  const Stroke& stroke = c.stroke;
   add({"widest_motion_mount_length_m", "length at the middle for the largest range",
        0.5 * (stroke.shortest + stroke.longest), "m", unknown, unknown, "half the stroke"});
   JointDesign middle = j;
   middle.mount_length = 0.5 * (stroke.shortest + stroke.longest);
-  add({"widest_motion_rad", "largest range of motion", motion_of(middle, task.arm), "rad"});
+  add({"widest_motion_rad", "largest range of motion", motion_of(middle, task.arm, stroke), "rad"});
   add({"stiffness_low_Nm_per_rad", "stiffness at the middle, vented",
        stiffness_at_middle(j, 0, air.atmosphere), "N m/rad", unknown, unknown, "bladder and ends"});
   add({"stiffness_high_Nm_per_rad", "stiffness at the middle, both at the pressure",
@@ -188,7 +191,7 @@ Table table_of(const std::vector<Candidate>& all, const JointTask& task) {
              {"moment_arm_m", "arm", "m"},
              {"mount_length_m", "mount", "m"},
              {"torque_margin", "margin"},
-             {"torque_margin_low", "at least"},
+             {"torque_margin_low", "margin from"},
              {"motion_rad", "motion", "rad"},
              {"co_contraction_left_Pa", "opposed", "Pa gauge"},
              {"air_per_stroke_kg", "air", "kg"},

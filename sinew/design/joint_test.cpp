@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "sinew/actuator/tension.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/design/methods.h"
 #include "sinew/experiment/machine_file.h"
@@ -20,7 +21,7 @@ const std::string leg_file = test::source_dir() + "/robots/leg/actuator.toml";
 actuator::Actuator leg_actuator() {
   return experiment::load_machine_file(leg_file).experiment.actuators.at(0);
 }
-constexpr double room = units::atmosphere;
+constexpr double room = units::atmosphere, line = 100 * units::psi;
 
 JointTask task_of(double torque, double angles, double motion, double pressure) {
   return {.torque = torque, .angles = angles, .motion = motion, .pressure = pressure};
@@ -30,25 +31,25 @@ JointTask task_of(double torque, double angles, double motion, double pressure) 
 
 TEST(DesignJoint, TheThesissStrokeAndArmGiveItsRangeOfMotion) {
   JointDesign joint{leg_actuator(), 2, 1 * units::inch, 3.15 * units::inch};
-  const Stroke stroke = stroke_of(joint.actuator);
+  const Stroke stroke = stroke_of(joint.actuator, line, room);
   // "About 1.4 in", "optimum length 3.15 in, half the range": to the last digit that is printed,
   // half of it more or less for "about".
   EXPECT_NEAR((stroke.longest - stroke.shortest) / units::inch, 1.4, 0.1);
   EXPECT_NEAR(0.5 * (stroke.longest + stroke.shortest) / units::inch, 3.15, 0.05);
-  EXPECT_NEAR(motion_of(joint, Arm::cam) / units::degree, 80, 5);
+  EXPECT_NEAR(motion_of(joint, Arm::cam, stroke) / units::degree, 80, 5);
   // By construction: 1.4 in at an arm of 1 in.
   EXPECT_NEAR(1.4 / 1 / units::degree, 80, 0.5);
 }
 
 TEST(DesignJoint, AnotherMountLengthGivesLessMotion) {
   JointDesign joint{leg_actuator(), 1, 1 * units::inch, 0};
-  const Stroke stroke = stroke_of(joint.actuator);
+  const Stroke stroke = stroke_of(joint.actuator, line, room);
   joint.mount_length = 0.5 * (stroke.longest + stroke.shortest);
-  const double most = motion_of(joint, Arm::cam);
+  const double most = motion_of(joint, Arm::cam, stroke);
   for (const double off : {-0.3, -0.1, 0.1, 0.3}) {
     JointDesign other = joint;
     other.mount_length += off * units::inch;
-    EXPECT_NEAR(motion_of(other, Arm::cam), most - 2 * std::abs(off), 1e-12);
+    EXPECT_NEAR(motion_of(other, Arm::cam, stroke), most - 2 * std::abs(off), 1e-12);
   }
 }
 
@@ -90,7 +91,7 @@ TEST(DesignJoint, ALeverIsACamForSmallAngles) {
 TEST(DesignJoint, TheCoContractionThatIsLeftUsesUpTheMargin) {
   JointTask task = task_of(0.5, 0.4, 0.8, 6e5);
   JointDesign joint{leg_actuator(), 1, 0.02, 0};
-  joint.mount_length = best_mount_length(joint, task, room);
+  joint.mount_length = best_mount_length(joint, task, stroke_of(joint.actuator, 6e5, room), room);
   task.torque = 0.6 * weakest_torque(joint, task, 0, room).torque.value;
   const double opposed = co_contraction_left(joint, task, room);
   EXPECT_GT(opposed, 0);
@@ -122,7 +123,7 @@ TEST(DesignJoint, MoreTorqueNeverNeedsFewerMuscles) {
       continue;
     }
     EXPECT_GE(one.of("torque_Nm").number, torque * (1 - 1e-5));
-    EXPECT_GE(one.of("motion_rad").number, range * units::degree * (1 - 1e-9));
+    EXPECT_GE(one.of("motion_rad").number, range * units::degree * (1 - 1e-5));
     if (!other.refused.empty()) continue;
     EXPECT_GE(other.of("count").number, one.of("count").number);
   }
