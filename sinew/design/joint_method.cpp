@@ -211,10 +211,10 @@ report::Plot torque_plot(const Candidate& c, const JointTask& task, double atmos
                    .title = "Torque over the range of motion",
                    .x = {"angle from the middle", "rad"},
                    .y = {"torque", "N m"}};
-  report::Curve torque{.label = "pressure on one side, the other side vented", .bold = true};
+  report::Curve torque{.label = "one muscle at the pressure", .bold = true};
   report::Curve band{
       .label = "95 % interval of the force", .style = report::Curve::Style::band, .color = 6};
-  report::Curve need{.label = "needed", .kind = report::Curve::Kind::desired};
+  report::Curve need{.label = "needed", .kind = report::Curve::Kind::desired, .color = 1};
   constexpr int steps = 60;
   for (int i = 0; i <= steps; ++i) {
     const double angle = c.motion * (static_cast<double>(i) / steps - 0.5);

@@ -1,11 +1,14 @@
-// thesis/figures/chapter_4.cpp - figures of the leg's valves and force sensors: 4-8, 4-9, 4-14.
+// thesis/figures/chapter_4.cpp - figures of the leg's valves and force sensors: 4-8, 4-9, 4-14; and
+// the choice of its cams and free lengths, 4.2.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "sinew/actuator/tension.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/design/joint.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/coil_current.h"
 #include "sinew/identify/sensor/sensor.h"
@@ -28,6 +31,91 @@ constexpr const char* bench =
     "in robots/leg/valves-at-the-bench.toml";
 constexpr const char* as_chosen =
     "the circuit's values were chosen to show this: the claim is met, not found";
+
+// --- 4.2: the choice of the cam and the free length ---------------------------------------------
+
+constexpr double cam = 1 * units::inch, supply = 100 * psi;
+
+design::JointDesign joint(const Sources& from, int count, double free_length) {
+  return {from.actuator, count, cam, free_length * units::inch};
+}
+
+// Returns the range of motion over the free length, for a cam [in].
+Curve motion_over_length(const Sources& from, double radius, const design::Stroke& stroke) {
+  Curve c{.label = fmt::format("cam of {:g} in", radius),
+          .source = "free length and stroke, design/joint.h"};
+  constexpr int steps = 60;
+  for (int i = 0; i <= steps; ++i) {
+    const double length =
+        stroke.shortest + (stroke.longest - stroke.shortest) * static_cast<double>(i) / steps;
+    design::JointDesign one{from.actuator, 1, radius * units::inch, length};
+    c.xs.push_back(length / units::inch);
+    c.ys.push_back(design::motion_of(one, design::Arm::cam, stroke) / units::degree);
+  }
+  return c;
+}
+
+// Returns the torque at the middle over the pressure [lbf in over psi].
+Curve torque_over_pressure(const Sources& from, int count) {
+  Curve c{.label = fmt::format("{} on each side", count), .source = "[31] and [33]"};
+  for (int p = 0; p <= 100; p += 5) {
+    const design::JointTask task{.pressure = p * psi};
+    c.xs.push_back(p);
+    c.ys.push_back(
+        design::torque_at(joint(from, count, 3.15), task, 0, p * psi, 0, from.air.atmosphere)
+            .value /
+        (pound_force * units::inch));
+  }
+  return c;
+}
+
+Exhibit section_4_2(const Sources& from) {
+  const design::Stroke stroke = design::stroke_of(from.actuator, supply, from.air.atmosphere);
+  const double way = (stroke.longest - stroke.shortest) / units::inch;
+  const double middle = 0.5 * (stroke.longest + stroke.shortest) / units::inch;
+  const double force =
+      actuator::tension(from.actuator, 3.15 * units::inch, 0, supply, from.air.atmosphere) /
+      pound_force;
+  const double motion =
+      design::motion_of(joint(from, 2, middle), design::Arm::cam, stroke) / units::degree;
+  const double off = design::motion_of(joint(from, 2, middle - 0.1), design::Arm::cam, stroke) +
+                     design::motion_of(joint(from, 2, middle + 0.1), design::Arm::cam, stroke);
+  const Section text("4.2");
+  const std::string at = "at 3.15 in and 100 psi, which the text does not state";
+  return {{.name = "4-2-choice",
+           .title = "Choice of the cam and of the free length",
+           .caption =
+               "Above: the range of motion ends where one actuator is fully contracted, b/sqrt 3, "
+               "or where the other one's threads are stretched. Below: torque at the middle with "
+               "one actuator at the pressure, by [31] as printed.",
+           .plots = {{.name = "motion",
+                      .x = {"free length", "in"},
+                      .y = {"range of motion", "deg", 0},
+                      .curves = {motion_over_length(from, 0.75, stroke),
+                                 motion_over_length(from, 1, stroke),
+                                 motion_over_length(from, 1.25, stroke)}},
+                     {.name = "torque",
+                      .x = {"gauge pressure", "psi"},
+                      .y = {"torque", "lbf in", 0},
+                      .curves = {torque_over_pressure(from, 1), torque_over_pressure(from, 2)}}}},
+          {text.number(predicted, "The largest force of an actuator", "15 lb", "force", force,
+                       "lbf", analysis::about(15), at),
+           text.number(predicted, "Two side by side pull with", "30 lb", "force", 2 * force, "lbf",
+                       analysis::about(30), at),
+           text.number(predicted, "The range of motion of an actuator", "1.4 in",
+                       "L_max - b/sqrt 3", way, "in", analysis::about(1.4)),
+           text.number(by_construction, "With a moment arm of 1 in this is", "1.4 rad, 80 deg",
+                       "1.4 in/1 in", 1.4 / 1 / units::degree, "deg", analysis::about(80)),
+           text.number(predicted, "The joint's range of motion", "80 deg", "range of motion",
+                       motion, "deg", analysis::about(80)),
+           text.number(predicted, "The optimum free length, half the range", "3.15 in",
+                       "(L_max + b/sqrt 3)/2", middle, "in", analysis::measured(3.15, 0.01)),
+           text.number(by_construction, "Another free length decreases the range of motion", "",
+                       "both at 0.1 in less and more, less the range at the optimum",
+                       off / units::degree - 2 * motion, "deg", analysis::at_most(0)),
+           report::not_applicable("4.2", "One actuator on each side has too little force", "",
+                                  "the torque that was needed is not given")}};
+}
 
 // --- 4-8, 4-9: current through a coil -----------------------------------------------------------
 
@@ -232,7 +320,7 @@ Exhibit figure_4_14(const Sources& from) {
 }  // namespace
 
 Exhibits chapter_4(const Sources& from) {
-  return {figure_4_8(from), figure_4_9(from), figure_4_14(from)};
+  return {section_4_2(from), figure_4_8(from), figure_4_9(from), figure_4_14(from)};
 }
 
 }  // namespace sinew::thesis

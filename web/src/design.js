@@ -3,12 +3,14 @@ import { Appearance } from './appearance.js';
 import { Charts } from './charts.js';
 import { by_id, chip, element, start_page } from './page.js';
 import { cell, heading, table } from './tables.js';
-import { number, Units } from './units.js';
+import { Units } from './units.js';
 
 const label_of = (name, unit, units) => {
   const { label } = units.of(unit);
   return label ? `${name} [${label}]` : name;
 };
+// Returns a number with four digits.
+const digits = (value) => String(+value.toPrecision(4)).replace('-', '−');
 const list = (title, texts, kind) => texts.length
   ? element('div', {}, element('h3', {}, title), element('ul', { class: 'warnings' }, ...texts.map((text) => element('li', { class: kind }, element('p', {}, text)))))
   : '';
@@ -17,7 +19,7 @@ class DesignPage {
   constructor(run) {
     this.run = run;
     this.units = new Units(run.atmosphere);
-    by_id('title').textContent = run.title;
+    by_id('title').textContent = run.title.charAt(0).toUpperCase() + run.title.slice(1);
     by_id('about').textContent = '';
     by_id('facts').textContent = `Sinew ${run.version}`;
     this.values = element('div', {});
@@ -39,7 +41,7 @@ class DesignPage {
   // Updates all numbers in the current units.
   refresh() {
     const { run, units } = this;
-    const shown = (value, unit) => (value === null ? '–' : number(units.convert(value, unit)));
+    const shown = (value, unit) => (value === null ? '–' : digits(units.convert(value, unit)));
     const rows = run.values.map((v) => element('tr', { 'data-key': v.key, 'data-value': v.value },
       element('th', { scope: 'row', class: 'key' }, v.name), cell(shown(v.value, v.unit), 'number ours'),
       cell(units.of(v.unit).label, 'unit'),
@@ -54,4 +56,4 @@ class DesignPage {
   }
 }
 
-start_page((run) => ({ run, page: new DesignPage(run), number }));
+start_page((run) => ({ run, page: new DesignPage(run) }));
