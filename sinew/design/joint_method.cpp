@@ -303,13 +303,12 @@ std::string refusal(const Nearest& nearest, const JointTask& task, const JointSe
         "no design: the largest range of motion is {:.3g} deg with these arms, {:.3g} deg are "
         "needed; try a shorter arm or a longer muscle",
         nearest.motion / units::degree, task.motion / units::degree);
+  const double enough = nearest.share > 0 ? std::ceil(s.most / nearest.share) : 1e9;
   return fmt::format(
-      "no design: {} side by side reach {:.3g} of {:.3g} N m at the weakest angle; try most={} or "
-      "a "
-      "higher pressure, a smaller range of angles or a longer muscle",
+      "no design: {} side by side reach {:.3g} of {:.3g} N m at the weakest angle; try {}a higher "
+      "pressure, a smaller range of angles or a longer muscle",
       s.most, std::max(nearest.share, 0.0) * task.torque, task.torque,
-      nearest.share > 0 ? static_cast<int>(std::min(std::ceil(s.most / nearest.share), 100.0))
-                        : 100);
+      enough <= 100 ? fmt::format("most={:.0f}, ", enough) : "");
 }
 
 }  // namespace
