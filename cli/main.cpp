@@ -20,7 +20,7 @@
 #include "cli/terminal.h"
 #include "sinew/config/changes.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/files/shipped.h"
+#include "sinew/config/shipped.h"
 
 namespace {
 
@@ -131,7 +131,7 @@ std::vector<std::string> with_shipped_files(std::vector<std::string> words) {
       continue;
     try {
       std::error_code none;
-      const std::filesystem::path own = files::shipped_folder() / words[i];
+      const std::filesystem::path own = config::shipped_folder() / words[i];
       if (std::filesystem::is_regular_file(own, none)) words[i] = own.string();
     } catch (const config::Error&) {
       return words;  // nothing is installed near the program: the command names what is missing

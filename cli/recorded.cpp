@@ -16,8 +16,8 @@
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
+#include "sinew/config/shipped.h"
 #include "sinew/experiment/globs.h"
-#include "sinew/files/shipped.h"
 #include "sinew/host/module.h"
 #include "sinew/log/csv.h"
 #include "sinew/log/reader.h"
@@ -252,7 +252,7 @@ std::string film_page(const FilmOptions& options, const run::Notices& notices) {
 }
 
 std::vector<std::string> film_arguments(const FilmOptions& o) {
-  const fs::path script = files::shipped_folder() / "python/sinew/_film.py";
+  const fs::path script = config::shipped_folder() / "python/sinew/_film.py";
   std::vector<std::string> out{"python3", script.string()};
   const auto add = [&](const char* name, double value) {
     out.push_back(fmt::format("--{}={}", name, value));

@@ -85,8 +85,8 @@ void bind_files(py::module_& m) {
   m.def(
       "list_files", &list_files, py::arg("kind") = "", py::kw_only(),
       py::arg("folder") = py::none(),
-      "Returns the robots, experiments, rigs, studies and examples that come with Sinew and that\n"
-      "are in `folder`, this one without it: a dict each, with `kind`, `path`, `title`,\n"
+      "Returns the robots, experiments, rigs, studies, valves and examples that come with Sinew\n"
+      "and that are in `folder`, this one without it: a dict each, with `kind`, `path`, `title`,\n"
       "`problem` (why it cannot be read) and `shipped`. `kind` is one of these words, or all.\n"
       "Raises InputError.");
   m.def(

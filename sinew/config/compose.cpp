@@ -8,6 +8,7 @@
 
 #include "sinew/config/changes.h"
 #include "sinew/config/gains.h"
+#include "sinew/config/shipped.h"
 #include "sinew/units/letters.h"
 #include "sinew/units/quantity.h"
 
@@ -268,6 +269,61 @@ void set_element(Node& table, std::string_view segment, std::string_view text,
   list->children[index] = std::move(value);
 }
 
+// --- valves of a catalogue ---
+
+// Returns whether --set gave the value or a part of it; removes the other parts of a table.
+bool leave_settings(Node& node) {
+  if (node.where.file == set_origin || !node.is_table()) return node.where.file == set_origin;
+  std::erase_if(node.children, [](Node& child) { return !leave_settings(child); });
+  return !node.children.empty();
+}
+
+// Removes what a valve's files give if --set names another valve.
+void leave_settings_of_named(Node& valve) {
+  if (valve.find("catalogue")->where.file != set_origin) return;
+  std::erase_if(valve.children, [](Node& child) {
+    return child.key != "catalogue_file" && !leave_settings(child);
+  });
+}
+
+// Returns the path of the catalogue that a valve's table names.
+std::string catalogue_path(const Node& valve, const std::string& key) {
+  const Node* file = valve.find("catalogue_file");
+  if (!file) return (shipped_folder() / "data/valves.toml").string();
+  check_file_entry(*file, key + "catalogue_file");
+  return resolved_path(*file);
+}
+
+// Returns the valve of that name in a catalogue.
+const Node& valve_in(const Node& catalogue, const Node& name, const std::string& key) {
+  const Node* valves = catalogue.find("valve");
+  const Node none = make_table("valve");
+  const std::vector<std::string_view> names = keys_of(valves ? *valves : none);
+  if (name.kind != Node::Kind::text || std::ranges::find(names, name.text) == names.end())
+    fail(name.where, key, shown(name),
+         fmt::format("a valve of {}: {}", catalogue.where.file, either(names)),
+         closest_in_quotes(name.text, names));
+  return *valves->find(name.text);
+}
+
+// Fills a valve's table with the values of a catalogue. A law of flow that differs from the
+// catalogue's has other keys, so that flow is the table's own.
+void fill_from(const Node& listed, Node& valve) {
+  Node whole = listed;
+  whole.key = valve.key;
+  whole.where = valve.where;
+  const auto law_of = [](const Node& of) {
+    const Node* flow = of.find("flow");
+    const Node* law = flow && flow->is_table() ? flow->find("law") : nullptr;
+    return law ? law->text : std::string();
+  };
+  const std::string own = law_of(valve);
+  if (!own.empty() && own != law_of(whole)) whole.erase("flow");
+  for (const char* key : {"catalogue", "catalogue_file"}) valve.erase(key);
+  merge(whole, valve);
+  valve = std::move(whole);
+}
+
 }  // namespace
 
 std::string_view format_kind(const Node& root) {
@@ -320,7 +376,29 @@ Node Composer::compose(const std::string& path, const std::vector<std::string>& 
     (units::trimmed(set.substr(0, set.find('='))) == "robot" ? files : others).push_back(set);
   Node root = read(path, std::move(files));
   for (const std::string& set : others) apply_set(root, set);
+  add_catalogue(root);
   return root;
+}
+
+// Completes the valves that name one of a catalogue.
+void Composer::add_catalogue(Node& root) {
+  Node* valves = root.find("valve");
+  if (!valves || !valves->is_table()) return;
+  for (Node& valve : valves->children) {
+    const std::string key = "valve." + valve.key + ".";
+    if (!valve.find("catalogue")) {
+      if (const Node* file = valve.find("catalogue_file"))
+        fail(file->where, key + "catalogue_file", shown(*file),
+             "the name of one of its valves as " + key + "catalogue");
+      continue;
+    }
+    leave_settings_of_named(valve);
+    const std::string path = catalogue_path(valve, key);
+    const Node& catalogue = read(path, {path});
+    if (const Node* named = valve.find("catalogue_file"))
+      check_kind(catalogue, *named, key + "catalogue_file", "valves");
+    fill_from(valve_in(catalogue, *valve.find("catalogue"), key + "catalogue"), valve);
+  }
 }
 
 // Returns the tree of these files, which are read at the first call.

@@ -13,6 +13,17 @@
 // Keys of valves or wiring in the robot's own file override those in the valves or wiring file, so
 // a robot with a `base` may change a single delay.
 //
+// A valve may name one of a catalogue, a valves file; its values apply where the machine's files
+// and
+// --set give none:
+//
+//   [valve.inlet]
+//   catalogue = "festo-mhj10"            of data/valves.toml, which ships with Sinew
+//   catalogue_file = "our-valves.toml"   of this file instead
+//
+// A file that names one replaces what its base or the robot's valves file have for that valve; so
+// does --set.
+//
 // The result has the keys that `--set` and messages use: joint.hip.damping, valve.inlet.area,
 // phase.swing.duration. A file name is relative to the file that contains it. Robot, actuator and
 // valves files can also be composed alone, as can a resolved.toml.
@@ -42,6 +53,7 @@ class Composer {
 
  private:
   const Node& read(const std::string& path, std::vector<std::string> files);
+  void add_catalogue(Node& root);
 
   std::mutex mutex_;                               // guards the map; its nodes never change
   std::map<std::vector<std::string>, Node> read_;  // keys: path, settings of `robot`

@@ -76,6 +76,86 @@ TEST_F(Compose, ARobotsOwnKeyOfAValveIsTheLastWord) {
   EXPECT_EQ(at(root, "valve.inlet.kind")->text, "2-way");
 }
 
+// --- a valve of a catalogue ---
+
+constexpr std::string_view our_valves =
+    "format = \"sinew.valves/1\"\n"
+    "[valve.small]\nkind = \"2-way\"\nopening_delay = \"1 ms\"\nclosing_delay = \"2 ms\"\n"
+    "flow = { law = \"iso6358\", sonic_conductance = \"0.1 L/(s bar)\" }\n"
+    "[valve.large]\nkind = \"3-way\"\nclosing_delay = \"9 ms\"\n";
+
+TEST_F(Compose, AValveOfTheShippedCatalogueHasItsValuesAndTheirPlaces) {
+  write("v.toml",
+        "format = \"sinew.valves/1\"\n[valve.in]\ncatalogue = \"festo-mhj10\"\n"
+        "opening_delay = \"3 ms\"\n");
+  const Node root = compose(path("v.toml"));
+  EXPECT_EQ(at(root, "valve.in.opening_delay")->where.file, path("v.toml"));
+  const Node* c = at(root, "valve.in.flow.sonic_conductance");
+  ASSERT_NE(c, nullptr);
+  EXPECT_TRUE(contains(c->where.file, "data/valves.toml"));
+  EXPECT_EQ(at(root, "valve.in.catalogue"), nullptr);
+}
+
+TEST_F(Compose, ANameThatTheCatalogueLacksHasASuggestion) {
+  write("v.toml", "format = \"sinew.valves/1\"\n[valve.in]\ncatalogue = \"festo-mhj1\"\n");
+  EXPECT_TRUE(
+      contains(message("v.toml"), "valve.in.catalogue: found \"festo-mhj1\"; expected a valve of"));
+  EXPECT_TRUE(contains(message("v.toml"), "try \"festo-mhj10\""));
+}
+
+TEST_F(Compose, ACatalogueOfOnesOwnIsRelativeToTheFileThatNamesIt) {
+  write("leg/ours.toml", std::string(our_valves));
+  write("leg/v.toml",
+        "format = \"sinew.valves/1\"\n[valve.in]\ncatalogue = \"large\"\n"
+        "catalogue_file = \"ours.toml\"\n");
+  EXPECT_EQ(at(compose(path("leg/v.toml")), "valve.in.kind")->text, "3-way");
+  EXPECT_EQ(at(compose(path("leg/v.toml"), {"valve.in.catalogue=small"}), "valve.in.kind")->text,
+            "2-way");
+  write("leg/w.toml",
+        "format = \"sinew.valves/1\"\n[valve.in]\ncatalogue = \"large\"\n"
+        "catalogue_file = \"robot.toml\"\n");
+  EXPECT_TRUE(contains(message("leg/w.toml"),
+                       "catalogue_file: found \"robot.toml\", a file of kind robot"));
+  write("leg/u.toml", "format = \"sinew.valves/1\"\n[valve.in]\ncatalogue_file = \"ours.toml\"\n");
+  EXPECT_TRUE(contains(message("leg/u.toml"), "expected the name of one of its valves"));
+}
+
+// A robot that names a valve does not keep the delays of the one in its valves file; one based on
+// it changes a single key; --set is the last word.
+TEST_F(Compose, ANamedValveReplacesTheOneBelowAndIsChangedFromAbove) {
+  write("leg/ours.toml", std::string(our_valves));
+  write("leg/valves.toml",
+        "format = \"sinew.valves/1\"\n[valve.inlet]\nkind = \"2-way\"\nopening_ramp = \"5 ms\"\n");
+  write("leg/named.toml",
+        "format = \"sinew.robot/1\"\nbase = \"robot.toml\"\n"
+        "[valve.inlet]\ncatalogue = \"small\"\ncatalogue_file = \"ours.toml\"\n");
+  write("tests/named.toml",
+        "format = \"sinew.experiment/1\"\nrobot = \"../leg/named.toml\"\n"
+        "[valve.inlet]\nclosing_delay = \"7 ms\"\n");
+  const Node root = compose(path("tests/named.toml"));
+  EXPECT_EQ(at(root, "valve.inlet.opening_ramp"), nullptr);
+  EXPECT_EQ(at(root, "valve.inlet.opening_delay")->text, "1 ms");
+  EXPECT_EQ(at(root, "valve.inlet.closing_delay")->text, "7 ms");
+
+  const Node set = compose(path("tests/named.toml"),
+                           {"valve.inlet.catalogue=large", "valve.inlet.opening_delay=4 ms",
+                            "valve.inlet.flow.law=orifice"});
+  EXPECT_EQ(at(set, "valve.inlet.kind")->text, "3-way");
+  EXPECT_EQ(at(set, "valve.inlet.flow.law")->text, "orifice");
+  EXPECT_EQ(at(set, "valve.inlet.opening_delay")->text, "4 ms");
+  EXPECT_EQ(at(set, "valve.inlet.closing_delay")->text, "9 ms");
+}
+
+TEST_F(Compose, AnotherLawOfFlowTakesNoNumberOfTheCatalogues) {
+  write("ours.toml", std::string(our_valves));
+  write("v.toml",
+        "format = \"sinew.valves/1\"\n[valve.in]\ncatalogue = \"small\"\n"
+        "catalogue_file = \"ours.toml\"\nflow = { law = \"orifice\", area = \"1 mm2\" }\n");
+  const Node root = compose(path("v.toml"));
+  EXPECT_EQ(at(root, "valve.in.flow.sonic_conductance"), nullptr);
+  EXPECT_EQ(at(root, "valve.in.closing_delay")->text, "2 ms");
+}
+
 TEST_F(Compose, AnExperimentHoldsItsRobotAndTheRobotsFiles) {
   const Node root = compose(path("tests/walk.toml"));
   EXPECT_EQ(format_kind(root), "experiment");

@@ -156,7 +156,8 @@ void merge(Node& base, const Node& over) {
   for (const Node& child : over.children) {
     Node* there = base.find(child.key);
     const bool both_tables = there && there->is_table() && child.is_table();
-    if (both_tables && !there->is_value_table() && !child.is_value_table()) {
+    const bool is_another_valve = child.is_table() && child.find("catalogue");
+    if (both_tables && !there->is_value_table() && !child.is_value_table() && !is_another_valve) {
       merge(*there, child);
     } else {
       base.put(child);

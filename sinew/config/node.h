@@ -57,8 +57,8 @@ std::string written(const Node& node);
 // Returns the name of a kind: "a table", "text", "a whole number" ...
 std::string_view kind_name(Node::Kind kind);
 
-// Merges tables key by key, where `over` takes precedence; any other value, and a value with its
-// source, is replaced as a whole.
+// Merges tables key by key, where `over` takes precedence; any other value, a value with its
+// source, and a valve for which `over` names one of a catalogue, is replaced as a whole.
 void merge(Node& base, const Node& over);
 
 // Returns the names of a table's children, for suggestions.

@@ -1,4 +1,4 @@
-#include "sinew/files/shipped.h"
+#include "sinew/config/shipped.h"
 
 #include <dlfcn.h>
 
@@ -7,7 +7,7 @@
 
 #include "sinew/config/diagnostics.h"
 
-namespace sinew::files {
+namespace sinew::config {
 
 namespace {
 
@@ -40,17 +40,16 @@ fs::path shipped_folder() {
   std::error_code none;
   if (const char* named = std::getenv("SINEW_SHARE"); named && *named) {
     if (is_it(named)) return fs::canonical(named, none);
-    config::fail({named, 0, 0}, "SINEW_SHARE", "no robots/, experiments/ and data/templates/ there",
-                 "the folder share/sinew of an installation, or Sinew's sources",
-                 "to unset it: then the folder next to the program is used");
+    fail({named, 0, 0}, "SINEW_SHARE", "no robots/, experiments/ and data/templates/ there",
+         "the folder share/sinew of an installation, or Sinew's sources",
+         "to unset it: then the folder next to the program is used");
   }
   for (fs::path folder : beginnings())
     for (int up = 0; up <= furthest && !folder.empty(); ++up, folder = folder.parent_path())
       for (const fs::path& place : {folder / "share/sinew", folder})
         if (is_it(place)) return fs::canonical(place, none);
-  config::fail({"share/sinew", 0, 0}, "", "nothing near the program",
-               "the robots and experiments that come with Sinew",
-               "SINEW_SHARE=FOLDER in the environment");
+  fail({"share/sinew", 0, 0}, "", "nothing near the program",
+       "the robots and experiments that come with Sinew", "SINEW_SHARE=FOLDER in the environment");
 }
 
-}  // namespace sinew::files
+}  // namespace sinew::config

@@ -1,6 +1,6 @@
-// files/shipped.h - location of the robots and experiments shipped with Sinew.
+// config/shipped.h - location of the robots, experiments and valves shipped with Sinew.
 //
-//   files::shipped_folder() / "experiments/walk-test-1.toml"
+//   config::shipped_folder() / "experiments/walk-test-1.toml"
 //
 // An installation has them in share/sinew below its prefix, a build in the source tree above it.
 // The environment variable SINEW_SHARE takes precedence, for a program moved away from its files.
@@ -8,10 +8,10 @@
 
 #include <filesystem>
 
-namespace sinew::files {
+namespace sinew::config {
 
-// Returns the folder that contains robots/, experiments/ and data/templates/. Throws config::Error
+// Returns the folder that contains robots/, experiments/ and data/. Throws config::Error
 // if it is not found.
 std::filesystem::path shipped_folder();
 
-}  // namespace sinew::files
+}  // namespace sinew::config

@@ -312,7 +312,12 @@ std::vector<Key> composed(std::string_view kind) {
             timing,
             gains};
   if (kind == "rig") return {version, files, actuator, valves};
-  if (kind == "actuator" || kind == "valves" || kind == "wiring") return {name};
+  if (kind == "valves")
+    return {name,
+            text("valve.<name>.catalogue",
+                 "valve of data/valves.toml, or of catalogue_file; other keys change its values"),
+            text("valve.<name>.catalogue_file", "valves file that has it, relative to this file")};
+  if (kind == "actuator" || kind == "wiring") return {name};
   return {};
 }
 

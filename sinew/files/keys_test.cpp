@@ -67,6 +67,7 @@ const std::vector<std::string> read_kinds = {"robot",      "actuator", "valves",
 // Keys that config/compose.h reads before the tables.
 bool is_composed(const Key& key) {
   return key.path == "name" || key.path.starts_with("files") || key.path == "sinew_version" ||
+         key.path.find(".catalogue") != key.path.npos ||
          (key.path == "robot" && key.kind == "experiment");
 }
 

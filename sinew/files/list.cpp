@@ -10,8 +10,8 @@
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/node.h"
+#include "sinew/config/shipped.h"
 #include "sinew/config/text_file.h"
-#include "sinew/files/shipped.h"
 #include "sinew/json/json.h"
 #include "sinew/units/letters.h"
 
@@ -21,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 5> kinds{"robots", "experiments", "rigs", "studies",
-                                                "examples"};
+constexpr std::array<std::string_view, 6> kinds{"robots",  "experiments", "rigs",
+                                                "studies", "valves",      "examples"};
 
 // Limits of the search, as the folder may be a home directory: depth, entries, size of a file [B].
 constexpr int deepest = 6;
@@ -43,6 +43,7 @@ std::string_view kind_of_format(std::string_view text) {
       if (kind == "robot") return "robots";
       if (kind == "experiment") return "experiments";
       if (kind == "rig") return "rigs";
+      if (kind == "valves") return "valves";
       if (kind == "plan" || kind == "tuning") return "studies";
       break;
     }
@@ -185,12 +186,14 @@ void require_kind(const std::string& kind) {
 std::vector<Listed> gather_shipped(std::string& folder) {
   std::vector<Listed> out;
   try {
-    folder = shipped_folder().string();
+    folder = config::shipped_folder().string();
   } catch (const config::Error&) {
     return out;
   }
   for (const char* below : {"robots", "experiments", "studies"})
     gather(fs::path(folder) / below, out);
+  if (std::optional<Listed> one = listed(fs::path(folder) / "data/valves.toml"))
+    out.push_back(std::move(*one));
   gather_examples(fs::path(folder) / "examples", out);
   for (Listed& one : out) one.shipped = true;
   return out;

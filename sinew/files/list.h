@@ -1,5 +1,5 @@
-// files/list.h - listing of robots, experiments, rigs, studies and examples, both those shipped
-// with Sinew and those in a folder.
+// files/list.h - listing of robots, experiments, rigs, studies, valves and examples, both those
+// shipped with Sinew and those in a folder.
 //
 //   for (const files::Listed& one : files::list("robots").files) …one.path, one.title…
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace sinew::files {
 
-// Returns the kinds: robots, experiments, rigs, studies, examples.
+// Returns the kinds: robots, experiments, rigs, studies, valves, examples.
 std::span<const std::string_view> listed_kinds();
 
 // Listed file, or the folder of an example.

@@ -15,11 +15,11 @@
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
+#include "sinew/config/shipped.h"
 #include "sinew/config/text_file.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/files/check.h"
-#include "sinew/files/shipped.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/output_folder.h"
 #include "sinew/units/constants.h"
@@ -306,7 +306,7 @@ Subject subject_of(const std::string& kind, const NewOptions& options) {
         "an experiment, which is of a robot, or a plan or tuning, which is of an experiment");
   }
   if (options.of.empty())
-    return {shipped_folder() /
+    return {config::shipped_folder() /
             (study ? "experiments/one-joint.toml" : "robots/one-joint/robot.toml")};
   const config::Node root = config::compose(options.of);
   const std::string_view wanted = study ? "experiment" : "robot";
@@ -346,7 +346,7 @@ struct Task {
 
 // Fills in the template `part`: robot, actuator, …
 Draft draft(const Task& task, const std::string& part, const fs::path& file) {
-  const fs::path from = shipped_folder() / "data/templates" / (part + ".toml");
+  const fs::path from = config::shipped_folder() / "data/templates" / (part + ".toml");
   Draft out{file, config::read_text_file(from.string(), "a template of Sinew")};
   choose_units(out.text, task.options.metric);
   if (const std::string& muscle = task.options.actuator; part == "robot" && !muscle.empty())
