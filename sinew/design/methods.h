@@ -11,10 +11,15 @@ namespace sinew::design {
 template <class Each>
 void for_each_design(const Each& each) {
   each(JointSettings{});
+  each(ValveSettings{});
 }
 
 // Returns the feasible joints as a table, and the one with the fewest muscles; of these, the one
 // that needs the least air per stroke. The result has a robot file if `base` is set.
 Result design(const JointSettings& settings);
+
+// Returns the flow and the delays that a valve needs, and the valves of a catalogue that have them.
+// It is refused if a valve is given by its flow and misses something.
+Result design(const ValveSettings& settings);
 
 }  // namespace sinew::design

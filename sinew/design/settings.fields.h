@@ -74,4 +74,82 @@ void fields(Visitor& v, JointSettings& s) {
   v.text(Setting{"joint", "name of the joint in that file"}.in_python("joint_name"), s.joint);
 }
 
+// --- valve ---
+
+// Valve of a muscle, for times of filling and venting and for pulses.
+struct ValveSettings {
+  std::string volume, actuator, name, length, contracted_length;
+  int count = 1;
+  std::string external_volume = "0 m3", uncertainty = "0 %";
+  std::string supply, pressure, start = "0 bar gauge", vent_to;
+  std::string fill_time, vent_time;
+  std::string frequency, least_duty = "10 %", greatest_duty = "90 %", step;
+  std::string critical_ratio = "0.3", flow, opening_delay, closing_delay, catalogue;
+};
+
+// Visits the rows of the muscle that a valve fills.
+template <class Visitor>
+void volume_fields(Visitor& v, ValveSettings& s) {
+  v.quantity({"volume", "air volume of the muscle, in place of its file", "m3", config::air_volume},
+             s.volume);
+  v.file({"actuator", "actuator file of the muscle"}, s.actuator);
+  v.text({"name", "name of the actuator, where the file has several"}, s.name);
+  v.quantity({"length", "length of the muscle as it begins to fill", "m", part_length}, s.length);
+  v.quantity({"contracted_length", "length of the filled muscle; default: it does not move", "m",
+              part_length},
+             s.contracted_length);
+  v.integer({"count", "muscles side by side at the valve", "", {1, 100, "side by side"}}, s.count);
+  v.quantity(
+      {"external_volume", "volume of hose and fittings up to the valve", "m3", config::air_volume},
+      s.external_volume);
+  v.quantity({"uncertainty", "share by which the whole volume may be smaller or larger", "1",
+              config::from_zero(0.9, "a share of the volume")},
+             s.uncertainty);
+}
+
+// Visits the rows of a valve that is judged together with those of the catalogue.
+template <class Visitor>
+void given_valve_fields(Visitor& v, ValveSettings& s) {
+  constexpr config::Range delay = config::from_zero(1, "of a valve's shutter");
+  v.quantity({"critical_ratio", "critical pressure ratio b of ISO 6358-1, where flow needs one",
+              "1", config::from_zero(0.999, "a share of the upstream pressure")},
+             s.critical_ratio);
+  v.text({"flow",
+          "flow of a valve of your own, as published: \"C 0.4 L/(s bar)\", \"Qn 100 L/min\", "
+          "\"Kv 0.035\", \"Cv 0.04\" or \"A 1.2 mm2\"; it is converted and judged"},
+         s.flow);
+  v.quantity({"opening_delay", "time in which that valve opens", "s", delay}, s.opening_delay);
+  v.quantity({"closing_delay", "time in which that valve shuts", "s", delay}, s.closing_delay);
+  v.file({"catalogue", "valves file to choose from; default: data/valves.toml of Sinew"},
+         s.catalogue);
+}
+
+template <class Visitor>
+void fields(Visitor& v, ValveSettings& s) {
+  constexpr config::Range gauge = {-units::atmosphere, config::greatest_pressure,
+                                   config::air_pressure.why};
+  constexpr config::Range time = config::above_zero(3600, "of filling a muscle");
+  constexpr config::Range duty = config::above_zero(1, "a share of the period");
+  v.method({"valve", "Choose valves for a muscle: flow for a time, delays for pulses",
+            config::Tables::none});
+  volume_fields(v, s);
+  v.quantity(Setting{"supply", "pressure of the supply", "Pa gauge", gauge}.required(), s.supply);
+  v.quantity(Setting{"pressure", "pressure of the filled muscle", "Pa gauge", gauge}.required(),
+             s.pressure);
+  v.quantity({"start", "pressure of the muscle before it fills", "Pa gauge", gauge}, s.start);
+  v.quantity({"vent_to", "pressure at the end of venting; default: a tenth of the filled muscle's",
+              "Pa gauge", gauge},
+             s.vent_to);
+  v.quantity({"fill_time", "time in which the muscle fills, or contracts", "s", time}, s.fill_time);
+  v.quantity({"vent_time", "time in which the muscle vents, or extends", "s", time}, s.vent_time);
+  v.quantity({"frequency", "frequency of the pulses", "Hz", config::pulses}, s.frequency);
+  v.quantity({"least_duty", "smallest duty that opens the valve", "1", duty}, s.least_duty);
+  v.quantity({"greatest_duty", "greatest duty that lets the valve shut", "1", duty},
+             s.greatest_duty);
+  v.quantity({"step", "largest change of the pressure by one pulse of the smallest duty", "Pa diff",
+              config::above_zero(config::greatest_pressure, config::air_pressure.why)},
+             s.step);
+  given_valve_fields(v, s);
+}
+
 }  // namespace sinew::design
