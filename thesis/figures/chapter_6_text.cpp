@@ -195,6 +195,17 @@ void add_text_of_test_1(const LegRun& run, const Sources& from, Exhibits& out) {
   add("6-4", text.number(predicted, "There are no noticeable oscillations at the knee", "",
                          "largest amplitude of its error in a swing, of its excursion",
                          largest_swing(run, "knee"), "%", analysis::negligible(100)));
+  for (const char* joint : {"hip", "knee"})
+    add("6-4",
+        Section("7.1").number(
+            predicted,
+            std::string("Stable with the foot on the ground too, by the gains of the swing: ") +
+                joint,
+            "", "turning points of its error in propulsion, the most in one",
+            run.summary(std::string("phases.propulsion.joints.") + joint + ".most_turning_points"),
+            "", analysis::another(0, 1),
+            "\"stable\" is taken to be: no oscillation in propulsion, as one has two turning "
+            "points"));
   add("6-4", text.number(predicted, "The joints turn only from about the middle of propulsion on",
                          "the middle", "share of propulsion until the hip has moved by 0.5 deg",
                          standing_share(run), "", analysis::about(0.5)));

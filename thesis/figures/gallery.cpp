@@ -7,9 +7,9 @@ namespace sinew::thesis {
 
 namespace {
 
-constexpr Exhibits (*makers[])(const Sources&) = {chapter_2,    valve_laws,       trapped_air,
-                                                  pulsed_valve, chapter_4,        chapter_5,
-                                                  chapter_6,    chapter_6_limits, chapter_7};
+constexpr Exhibits (*makers[])(const Sources&) = {
+    chapter_1, chapter_2, valve_laws, trapped_air,      pulsed_valve,
+    chapter_4, chapter_5, chapter_6,  chapter_6_limits, chapter_7};
 
 }  // namespace
 

@@ -50,6 +50,7 @@ report::Gallery gallery(const Sources&, std::atomic<std::int64_t>& done);
 std::string text_of(const report::Gallery& gallery);
 
 // Return the figures of a chapter, or of a part of it.
+Exhibits chapter_1(const Sources&);
 Exhibits chapter_2(const Sources&);
 Exhibits weights(const Sources&);      // 2-8 to 2-12: weights on an actuator with its air sealed in
 Exhibits valve_laws(const Sources&);   // 3-4, 3-13
