@@ -34,6 +34,10 @@ constexpr DesignHelp designs[] = {
     {"valve",
      "sinew design valve --volume \"50 mL\" --supply \"6 bar gauge\" --pressure \"4 bar gauge\" "
      "--fill-time \"100 ms\" --frequency \"50 Hz\""},
+    {"air",
+     "sinew design air --use runs/walk-test-1/1 --volume \"1 L\" --pressure \"200 bar gauge\" "
+     "--mass "
+     "\"0.9 kg\""},
 };
 
 template <class Settings>

@@ -8,6 +8,7 @@
 
 #include "sinew/report/page/design_page.h"
 #include "sinew/report/text/text_table.h"
+#include "sinew/units/unit.h"
 
 namespace sinew::design {
 
@@ -22,6 +23,21 @@ std::string digits(double value) {
   return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-";
 }
 
+// Returns a number in the unit that a value or column has for itself, else in the chosen one.
+TextOptions::Shown shown_as(double si, const std::string& unit, const std::string& own,
+                            const TextOptions& how) {
+  if (own.empty()) return how.shown(si, unit);
+  const units::Unit of = units::read_unit(own).unit;
+  const double scale = of.denominator / of.numerator;
+  return {si * scale, own, scale};
+}
+
+// The same for a page, which converts units of SI by itself.
+std::pair<double, std::string> on_page(double si, const std::string& unit, const std::string& own) {
+  const TextOptions::Shown shown = shown_as(si, unit, own, {});
+  return {shown.number, shown.unit};
+}
+
 std::string shown_unit(const TextOptions::Shown& shown) {
   return shown.unit == "1" ? "" : shown.unit;
 }
@@ -30,9 +46,9 @@ void put_values(std::string& out, const Result& result, const TextOptions& how) 
   using enum TextTable::Align;
   TextTable table({"", "value", "unit", "from", "to", ""}, {left, right, left, right, right, left});
   for (const Value& v : result.values) {
-    const TextOptions::Shown shown = how.shown(v.number, v.unit);
+    const TextOptions::Shown shown = shown_as(v.number, v.unit, v.shown_in, how);
     const auto bound = [&](double x) {
-      return std::isfinite(x) ? digits(how.shown(x, v.unit).number) : std::string();
+      return std::isfinite(x) ? digits(shown_as(x, v.unit, v.shown_in, how).number) : std::string();
     };
     table.add(
         {v.name, digits(shown.number), shown_unit(shown), bound(v.low), bound(v.high), v.note});
@@ -40,9 +56,9 @@ void put_values(std::string& out, const Result& result, const TextOptions& how) 
   out += table.text_within(how.width);
 }
 
-std::string text_of(const Cell& cell, const std::string& unit, const TextOptions& how) {
+std::string text_of(const Cell& cell, const Column& column, const TextOptions& how) {
   if (const auto* words = std::get_if<std::string>(&cell)) return *words;
-  return digits(how.shown(std::get<double>(cell), unit).number);
+  return digits(shown_as(std::get<double>(cell), column.unit, column.shown_in, how).number);
 }
 
 // Returns whether the first row has words in this column.
@@ -55,7 +71,7 @@ void put_table(std::string& out, const Table& table, const TextOptions& how) {
   std::vector<TextTable::Align> align;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const Column& c = table.columns[i];
-    const std::string unit = shown_unit(how.shown(0, c.unit));
+    const std::string unit = shown_unit(shown_as(0, c.unit, c.shown_in, how));
     heads.push_back(unit.empty() ? c.name : fmt::format("{} [{}]", c.name, unit));
     align.push_back(has_words(table, i) ? TextTable::Align::left : TextTable::Align::right);
   }
@@ -63,7 +79,7 @@ void put_table(std::string& out, const Table& table, const TextOptions& how) {
   for (std::size_t r = 0; r < std::min(table.rows.size(), table.shown); ++r) {
     std::vector<std::string> row;
     for (std::size_t i = 0; i < table.columns.size(); ++i)
-      row.push_back(text_of(table.rows[r][i], table.columns[i].unit, how));
+      row.push_back(text_of(table.rows[r][i], table.columns[i], how));
     lines.add(row);
   }
   fmt::format_to(std::back_inserter(out), "\n{}\n{}", table.title, lines.text_within(how.width));
@@ -120,22 +136,28 @@ Json to_json(const Result& result) {
 
 std::string page_of(const Result& result, double atmosphere, const std::string& version) {
   Json values = Json::array(), tables = Json::array();
-  for (const Value& v : result.values)
+  for (const Value& v : result.values) {
+    const auto shown = [&](double si) { return on_page(si, v.unit, v.shown_in).first; };
     values.push_back({{"key", v.key},
                       {"name", v.name},
-                      {"value", number_json(v.number)},
-                      {"unit", v.unit},
-                      {"low", number_json(v.low)},
-                      {"high", number_json(v.high)},
+                      {"value", number_json(shown(v.number))},
+                      {"unit", on_page(0, v.unit, v.shown_in).second},
+                      {"low", number_json(shown(v.low))},
+                      {"high", number_json(shown(v.high))},
                       {"note", v.note}});
+  }
   for (const Table& table : result.tables) {
     Json columns = Json::array(), rows = Json::array();
-    for (const Column& c : table.columns) columns.push_back({{"name", c.name}, {"unit", c.unit}});
+    for (const Column& c : table.columns)
+      columns.push_back({{"name", c.name}, {"unit", on_page(0, c.unit, c.shown_in).second}});
     for (const auto& row : table.rows) {
       Json cells = Json::array();
-      for (const Cell& cell : row) {
-        const auto* words = std::get_if<std::string>(&cell);
-        cells.push_back(words ? Json(*words) : number_json(std::get<double>(cell)));
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        const Column& c = table.columns[i];
+        const auto* words = std::get_if<std::string>(&row[i]);
+        cells.push_back(
+            words ? Json(*words)
+                  : number_json(on_page(std::get<double>(row[i]), c.unit, c.shown_in).first));
       }
       rows.push_back(std::move(cells));
     }

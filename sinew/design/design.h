@@ -26,13 +26,15 @@ struct Value {
   double number = 0;
   std::string unit;  // SI, "Pa gauge"; "1": a plain number
   double low = unknown, high = unknown;
-  std::string note = "";  // where it comes from, or what it means
+  std::string note = "";      // where it comes from, or what it means
+  std::string shown_in = "";  // unit in text and on the page, "min"; empty: the chosen set's
 };
 
 // A table, such as all feasible designs. A cell is a number, NaN if unknown, or words.
 struct Column {
   std::string key, name;
   std::string unit = "1";
+  std::string shown_in = "";  // as of a value
 };
 using Cell = std::variant<double, std::string>;
 struct Table {

@@ -12,6 +12,7 @@ template <class Each>
 void for_each_design(const Each& each) {
   each(JointSettings{});
   each(ValveSettings{});
+  each(AirSettings{});
 }
 
 // Returns the feasible joints as a table, and the one with the fewest muscles; of these, the one
@@ -21,5 +22,9 @@ Result design(const JointSettings& settings);
 // Returns the flow and the delays that a valve needs, and the valves of a catalogue that have them.
 // It is refused if a valve is given by its flow and misses something.
 Result design(const ValveSettings& settings);
+
+// Returns the time, steps and distance on the store's air, with their spread, the store's exergy,
+// and the cost of one more muscle. Refuses a store below the line's pressure.
+Result design(const AirSettings& settings);
 
 }  // namespace sinew::design

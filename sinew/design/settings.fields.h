@@ -4,8 +4,10 @@
 
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "sinew/config/setting_rows.h"
+#include "sinew/gas/storage.h"
 
 namespace sinew::design {
 
@@ -150,6 +152,74 @@ void fields(Visitor& v, ValveSettings& s) {
               config::above_zero(config::greatest_pressure, config::air_pressure.why)},
              s.step);
   given_valve_fields(v, s);
+}
+
+// --- air ---
+
+// Duration of a store of air.
+struct AirSettings {
+  std::string use;
+  std::string volume, pressure, mass, line, lowest;
+  std::string droop, droop_flow;
+  std::vector<std::string> compressor;
+  std::string compressor_mass;
+  std::string name, length, contraction, cycles, muscle_pressure;
+  int muscles = 0;
+  std::string external_volume = "0 m3";
+};
+
+template <class Visitor>
+void fields(Visitor& v, AirSettings& s) {
+  constexpr config::Range stored =
+      config::above_zero(gas::highest_stored_pressure, "compressibilities are known up to it");
+  constexpr config::Range weight = config::above_zero(1e4, "on a robot");
+  v.method({"air", "Find how long a bottle, a tank or a compressor lasts", config::Tables::none});
+  v.file(Setting{"use",
+                 "consumption: folder of a run or its summary.json, table of a sweep, or file with "
+                 "an actuator"}
+             .required(),
+         s.use);
+  v.quantity({"volume", "volume of the bottle or tank", "m3",
+              config::above_zero(config::air_volume.high, config::air_volume.why)},
+             s.volume);
+  v.quantity({"pressure", "pressure of the full bottle or tank", "Pa gauge", stored}, s.pressure);
+  v.quantity({"mass", "mass of the empty bottle with its regulator", "kg", weight}, s.mass);
+  v.quantity({"line", "set pressure of the regulator; default: that of the run or the muscle",
+              "Pa gauge", stored},
+             s.line);
+  v.quantity({"lowest", "pressure in the line at which the robot stops; default: the line's",
+              "Pa gauge", stored},
+             s.lowest);
+  v.quantity({"droop", "fall of the regulator's pressure at the flow droop_flow", "Pa diff",
+              config::above_zero(config::greatest_pressure, "of a regulator")},
+             s.droop);
+  v.quantity({"droop_flow", "flow of free air at which the regulator falls by droop", "m3/s",
+              config::above_zero(1, "of a regulator")},
+             s.droop_flow);
+  v.texts(Setting{"compressor",
+                  "POINT: \"100 psi gauge, 6.2 L/min, 120 W\": pressure, free flow and electrical "
+                  "power, which may be left out"}
+              .repeated(),
+          s.compressor);
+  v.quantity({"compressor_mass", "mass of the compressor", "kg", weight}, s.compressor_mass);
+  v.text({"name", "name of the actuator, where the file has several"}, s.name);
+  v.integer(
+      {"muscles", "number of muscles that are filled in each cycle", "", {0, 10000, "of a robot"}},
+      s.muscles);
+  v.quantity(
+      {"cycles", "fillings of each muscle per time", "Hz", config::above_zero(1000, "of a muscle")},
+      s.cycles);
+  v.quantity({"length", "length of a vented muscle; default: its rest length", "m", part_length},
+             s.length);
+  v.quantity(
+      {"contraction", "contraction of a full muscle, of that length", "1", {0, 0.5, "of a braid"}},
+      s.contraction);
+  v.quantity({"muscle_pressure", "pressure of a full muscle; default: the line's", "Pa gauge",
+              config::above_zero(config::greatest_pressure, config::air_pressure.why)},
+             s.muscle_pressure);
+  v.quantity(
+      {"external_volume", "volume of hose and fittings of one muscle", "m3", config::air_volume},
+      s.external_volume);
 }
 
 }  // namespace sinew::design

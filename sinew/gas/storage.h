@@ -5,7 +5,7 @@
 //   m = P V/(Z R T)                     Z(P) from a table
 //   B = m [R T I(P) - (P - P_atm) v]    exergy of a closed store at the room's temperature;
 //                                       v = V/m,  I = integral of Z dP/P from P_atm to P
-//   b_s = R T log(P/P_atm)              exergy of a kilogram that flows in a line
+//   b_s = R T I(P)                      exergy of a kilogram that flows in a line, as dB = b_s dm
 //
 // Emptying from P_1 to P_2, the set pressure of the regulator, has two limits:
 //
@@ -105,7 +105,7 @@ inline double stored_exergy(const Air& air, double volume, double pressure) {
 
 // Returns b_s, the exergy of a kilogram of air that flows in a line of an absolute pressure [J/kg].
 inline double stream_exergy(const Air& air, double pressure) {
-  return air.gas_constant * air.temperature * std::log(pressure / air.atmosphere);
+  return air.gas_constant * air.temperature * compressibility_integral(air.atmosphere, pressure);
 }
 
 // Air that stays in a store after it was emptied to a pressure.

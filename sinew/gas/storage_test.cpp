@@ -58,6 +58,19 @@ TEST(Storage, ExergyOfLowPressuresIsThatOfTheIdealGas) {
   EXPECT_EQ(stored_exergy(air, litre, air.atmosphere), 0);
 }
 
+// A store that loses a little air at the room's temperature loses the exergy of that air's flow.
+TEST(Storage, ExergyOfAStoreLeavesWithItsAir) {
+  for (const double p : {2 * bar, 30 * bar, 130 * bar, 305 * bar}) {
+    const double lower = p * (1 - 1e-5);
+    const double mass = stored_mass(air, litre, p) - stored_mass(air, litre, lower);
+    const double exergy = stored_exergy(air, litre, p) - stored_exergy(air, litre, lower);
+    EXPECT_NEAR(exergy / (mass * stream_exergy(air, p)), 1, 1e-4) << p;
+  }
+  EXPECT_NEAR(stream_exergy(air, 7 * bar),
+              air.gas_constant * air.temperature * std::log(7 * bar / air.atmosphere),
+              0.003 * stream_exergy(air, 7 * bar));
+}
+
 TEST(Storage, WarmWallsYieldMore) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<> high(2, 320), share(0.05, 0.999);
