@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sinew/actuator/actuator.h"
+#include "sinew/actuator/bladder.h"
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/braid.h"
 #include "sinew/actuator/hysteresis.h"
@@ -187,6 +188,14 @@ void fields(Visitor& v, Loss& loss) {
 
 template <class Visitor>
 void fields(Visitor& v, Bladder& bladder) {
+  v.choice({.name = "fit",
+            .optional = true,
+            .doc = "stretched: up to the mesh; oversized: loose, without tension and threshold; "
+                   "liner: the same of a film, without a wall; thesis 7.3"},
+           bladder.fit,
+           {{"stretched", Bladder::Fit::stretched},
+            {"oversized", Bladder::Fit::oversized},
+            {"liner", Bladder::Fit::liner}});
   units::amount(v, "stiffness", "N/m", "k_1, in parallel with the braid; not in the thesis",
                 bladder.stiffness);
   units::optional_amount(v, "rest_length", "m", "L_r, length without tension", bladder.rest_length);
@@ -282,12 +291,11 @@ void fields(Visitor& v, AirVolume& air) {
 
 // Visits a range as two numbers, the lower first.
 template <class Visitor>
-void ends(Visitor& v, const char* name, const char* unit, const char* doc, const char* example,
-          double& low, double& high) {
+void ends(Visitor& v, const units::Field& field, const char* example, double& low, double& high) {
   std::vector<double> both{low, high};
-  v.numbers({.name = name, .unit = unit, .doc = doc}, both);
+  v.numbers(field, both);
   if (both.size() != 2 || !(both[0] <= both[1]))
-    units::report_conflict(v, name, "no range", "the lower end and the upper one", example);
+    units::report_conflict(v, field.name, "no range", "the lower end and the upper one", example);
   both.resize(2);
   low = both[0];
   high = both[1];
@@ -303,7 +311,7 @@ void fields(Visitor& v, Prediction& p) {
     units::report_conflict(v, "lengths", "lengths in another order",
                            "lengths from the shortest to the longest",
                            R"(["80 mm", "90 mm", "100 mm"])");
-  ends(v, "pressures", "Pa gauge", "lowest and highest measured pressure",
+  ends(v, {.name = "pressures", .unit = "Pa gauge", .doc = "lowest and highest measured pressure"},
        R"(["0 kPa gauge", "600 kPa gauge"])", p.lowest, p.highest);
   // Half-widths about the law that contain 68 % and 95 % of the measured forces.
   units::amount(v, "inside_68", "N",
@@ -349,6 +357,65 @@ void fields(Visitor& v, Prediction& p) {
   if ((p.rest_length > 0 || p.inside_95 > 0) && p.lengths.empty())
     units::report_conflict(v, "lengths", "none", "at least the one that was measured",
                            R"(["80 mm", "90 mm", "100 mm"])");
+}
+
+// 0: unknown, so that a file may have bounds alone.
+template <class Visitor>
+void fields(Visitor& v, Life& life) {
+  constexpr std::string_view counted = "a cycle is counted as one or a half";
+  v.number({.name = "contraction",
+            .unit = "1",
+            .min = 0,
+            .max = 0.5,
+            .least = 1e-3,
+            .why = "a braid contracts by less than half",
+            .optional = true,
+            .doc = "Delta_ref, range of contraction of the counted cycles, of long_end.length"},
+           life.contraction);
+  units::optional_amount(v, "pressure", "Pa gauge",
+                         "highest pressure of the counted cycles; 0: life at any pressure",
+                         life.pressure);
+  v.number({.name = "cycles_over",
+            .unit = "1",
+            .min = 0,
+            .least = 0.5,
+            .why = counted,
+            .optional = true,
+            .doc = "mean number of cycles until an actuator fails, lower bound; 0: unknown"},
+           life.cycles_over);
+  v.number({.name = "cycles_under",
+            .unit = "1",
+            .min = 0,
+            .least = 0.5,
+            .why = counted,
+            .optional = true,
+            .doc = "mean number of cycles until an actuator fails, upper bound; 0: unknown"},
+           life.cycles_under);
+  ends(v,
+       {.name = "exponent",
+        .unit = "1",
+        .min = 0,
+        .max = 30,
+        .optional = true,
+        .doc = "m, smallest and largest exponent of the cycles by the contraction"},
+       R"(["1", "8"])", life.exponent_least, life.exponent_most);
+  ends(
+      v,
+      {.name = "factor",
+       .unit = "1",
+       .min = 1e-6,
+       .max = 1e6,
+       .why = "no bladder lasts a million times as long as another",
+       .optional = true,
+       .doc = "f, smallest and largest factor of the cycles, for another bladder than the counted"},
+      R"(["1", "24"])", life.factor_least, life.factor_most);
+  const bool counts = life.cycles_over > 0 || life.cycles_under > 0;
+  if (counts && !(life.contraction > 0))
+    units::report_conflict(v, "contraction", "no contraction of the counted cycles",
+                           "their range of contraction", "contraction = \"20 %\"");
+  if (life.cycles_under > 0 && life.cycles_under < life.cycles_over)
+    units::report_conflict(v, "cycles_under", "an upper bound below cycles_over",
+                           "one above it, or no upper bound");
 }
 
 template <class Visitor>
@@ -472,6 +539,7 @@ void fields(Visitor& v, Actuator& a) {
   v.group(
       {.name = "toe", .optional = true, .doc = "soft beginning of the tension of a slack muscle"},
       [&](auto& g) { fields(g, a.toe); });
+  loosen(a);
   if (tapers(a.taper) && !(a.taper.rest_length > a.caps.length)) {
     units::report_conflict(v, "taper", "no rest_length",
                            "that of the muscle without pressure and load");
@@ -489,6 +557,8 @@ void fields(Visitor& v, Actuator& a) {
           [&](auto& g) { fields(g, a.hysteresis); });
   v.group({.name = "creep", .optional = true, .doc = "delayed tension"},
           [&](auto& g) { fields(g, a.creep); });
+  v.group({.name = "life", .optional = true, .doc = "cycles until an actuator fails, as a range"},
+          [&](auto& g) { fields(g, a.life); });
   v.group({.name = "prediction",
            .optional = true,
            .doc = "half-widths about the law that contain 68 % or 95 % of measured forces"},

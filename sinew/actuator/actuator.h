@@ -1,8 +1,8 @@
 // actuator/actuator.h - parameters of one braided pneumatic actuator (McKibben muscle).
 //
 // The laws are in braid.h (geometry), body.h, bladder.h, pull.h, series.h, tension.h, loss.h,
-// hysteresis.h, creep.h and stiffness.h. All values are in SI units; a pressure is absolute unless
-// its name has "gauge". Source: Colbrunn (2000), equation numbers in brackets.
+// hysteresis.h, creep.h, stiffness.h and life.h. All values are in SI units; a pressure is absolute
+// unless its name has "gauge". Source: Colbrunn (2000), equation numbers in brackets.
 #pragma once
 
 #include <array>
@@ -59,6 +59,10 @@ struct Loss {
 
 // The bladder as a separate spring; not in the thesis, see bladder.h.
 struct Bladder {
+  // Names its size in the mesh, thesis 7.3: stretched by the pressure until it touches the mesh;
+  // wider and longer than the mesh ever is; the same, of a film.
+  enum class Fit { stretched, oversized, liner };
+  Fit fit = Fit::stretched;
   double stiffness = 0;                   // k_1 [N/m]
   double rest_length = 0;                 // L_r [m]
   double quadratic = 0, cubic = 0;        // k_2, k_3 [N/m2] [N/m3]
@@ -117,6 +121,15 @@ struct Toe {
   double tension = 0;  // F_toe [N], 0: no soft beginning
 };
 
+// Number of cycles until an actuator fails, as a range; see life.h. 0: unknown.
+struct Life {
+  double contraction = 0;                        // reference: range of contraction, of L_max [-]
+  double pressure = 0;                           // reference: largest gauge pressure [Pa]
+  double cycles_over = 0, cycles_under = 0;      // bounds of the mean life there [-]
+  double exponent_least = 0, exponent_most = 0;  // m [-]
+  double factor_least = 1, factor_most = 1;      // f, for another bladder [-]
+};
+
 // Spread of measured forces about the law's, as written to the actuator's file by an
 // identification; not part of any law, see prediction.h. 0: unknown.
 struct Prediction {
@@ -148,6 +161,7 @@ struct Actuator {
   Toe toe;
   Hysteresis hysteresis;
   Creep creep;
+  Life life;
   Prediction prediction;
 };
 

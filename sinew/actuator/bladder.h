@@ -14,12 +14,26 @@
 //
 // Outside the fitted lengths the tension is that of the nearest fitted length, since a polynomial
 // does not extrapolate.
+//
+// Bladder::Fit, thesis 7.3: a bladder that is wider than the mesh at its widest and longer than at
+// its longest is never stretched. The air presses it against the mesh, which takes all stress, so
+// that F = 0 and the threshold of the effectiveness is 0. A liner is such a bladder of a film, such
+// as mylar, whose wall takes no room: h_w = 0 (body.h). Folds, and a friction between film and mesh
+// other than that of loss.h, are not modelled.
 #pragma once
 
 #include "sinew/actuator/actuator.h"
 #include "sinew/units/math.h"
 
 namespace sinew::actuator {
+
+// Removes the tension, the threshold and the wall that the fit of its bladder excludes.
+inline void loosen(Actuator& a) {
+  if (a.bladder.fit == Bladder::Fit::stretched) return;
+  a.bladder = {.fit = a.bladder.fit, .rest_length = a.bladder.rest_length};
+  a.effectiveness.threshold = 0;
+  if (a.bladder.fit == Bladder::Fit::liner) a.wall.thickness = 0;
+}
 
 // Returns the length, limited to the fitted lengths [m].
 constexpr double held(const Bladder& bladder, double length) {

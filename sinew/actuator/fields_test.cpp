@@ -52,6 +52,12 @@ FieldVisitor leg() {
       {"hysteresis.volume_pressure", {1e6}},
       {"creep.share", {0.03, 0.02}},
       {"creep.time", {0.5, 10}},
+      {"life.contraction", {0.2}},
+      {"life.pressure", {6e5}},
+      {"life.cycles_over", {182}},
+      {"life.cycles_under", {2587}},
+      {"life.exponent", {1, 8}},
+      {"life.factor", {1, 24}},
   };
   v.words_given = {{"effectiveness.argument", "absolute"},
                    {"short_end.law", "zero"},
@@ -93,6 +99,39 @@ TEST(ActuatorFields, FillEveryMember) {
   EXPECT_EQ(a.hysteresis.volume_pressure, 1e6);
   EXPECT_EQ(a.creep.share, (std::array{0.03, 0.02}));
   EXPECT_EQ(a.creep.time, (std::array{0.5, 10.0}));
+  EXPECT_EQ(a.life.contraction, 0.2);
+  EXPECT_EQ(a.life.pressure, 6e5);
+  EXPECT_EQ(a.life.cycles_over, 182);
+  EXPECT_EQ(a.life.cycles_under, 2587);
+  EXPECT_EQ(a.life.exponent_least, 1);
+  EXPECT_EQ(a.life.exponent_most, 8);
+  EXPECT_EQ(a.life.factor_least, 1);
+  EXPECT_EQ(a.life.factor_most, 24);
+}
+
+TEST(ActuatorFields, ALifeHasAReferenceAndBoundsInOrder) {
+  FieldVisitor v = leg();
+  v.numbers_given["life.contraction"] = {0};
+  Actuator a;
+  fields(v, a);
+  EXPECT_EQ(v.complaints, std::vector<std::string>{"life.contraction"});
+
+  FieldVisitor crossed = leg();
+  crossed.numbers_given["life.cycles_under"] = {100};
+  fields(crossed, a);
+  EXPECT_EQ(crossed.complaints, std::vector<std::string>{"life.cycles_under"});
+}
+
+TEST(ActuatorFields, ALooseBladderRemovesWhatItExcludes) {
+  FieldVisitor v = leg();
+  v.words_given["bladder.fit"] = "liner";
+  Actuator a;
+  fields(v, a);
+  EXPECT_TRUE(v.complaints.empty());
+  EXPECT_EQ(a.bladder.stiffness, 0);
+  EXPECT_EQ(a.bladder.saturating_tension, 0);
+  EXPECT_EQ(a.effectiveness.threshold, 0);
+  EXPECT_EQ(a.wall.thickness, 0);
 }
 
 TEST(ActuatorFields, RequestWhatWasGivenAndAFewMore) {

@@ -108,7 +108,7 @@ FieldVisitor driven_valve() {
         std::pair{"coil.power", 1.0}, std::pair{"coil.boost_power", 9.0},
         std::pair{"coil.boost_time", 1e-3}, std::pair{"opening_delay_slope", 1e-9},
         std::pair{"closing_delay_slope", -2e-9}, std::pair{"max_frequency", 350.0},
-        std::pair{"fails_above", 2.4e5}})
+        std::pair{"fails_above", 2.4e5}, std::pair{"rated_switchings", 5e8}})
     v.numbers_given[std::string("valve.x.") + key] = {value};
   return v;
 }
@@ -128,6 +128,7 @@ TEST(ValveFields, FillDriveCoilAndLimits) {
   EXPECT_EQ(valve.closing_delay_slope, -2e-9);
   EXPECT_EQ(valve.max_frequency, 350);
   EXPECT_EQ(valve.fails_above, 2.4e5);
+  EXPECT_EQ(valve.rated_switchings, 5e8);
   EXPECT_EQ(v.find("valve.x.fails_above")->unit, "Pa diff");
 
   // All later keys are optional.

@@ -180,6 +180,14 @@ void limit_fields(Visitor& v, Valve& valve) {
       v, "fails_above", "Pa diff",
       "pressure difference above which it does not open, thesis 4.3; 0: no limit",
       valve.fails_above);
+  v.number({.name = "rated_switchings",
+            .unit = "1",
+            .min = 0,
+            .least = 1,
+            .why = "openings are counted",
+            .optional = true,
+            .doc = "number of openings that the valve is made for; 0: not given"},
+           valve.rated_switchings);
 }
 
 template <class Visitor>

@@ -91,7 +91,8 @@ struct Valve {
   double opening_delay_slope = 0;  // delay per pressure difference at the edge [s/Pa]
   double closing_delay_slope = 0;  // [s/Pa]
   double max_frequency = 0;        // largest frequency that the shutter follows; 0: no limit [Hz]
-  double fails_above = 0;  // pressure difference that the coil cannot lift; 0: no limit [Pa]
+  double fails_above = 0;       // pressure difference that the coil cannot lift; 0: no limit [Pa]
+  double rated_switchings = 0;  // openings that it is made for; 0: not given [-]
   Coil coil;
   Circuit circuit;
   Regulator regulator;

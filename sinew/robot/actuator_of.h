@@ -5,11 +5,13 @@
 #include <vector>
 
 #include "sinew/actuator/actuator.h"
+#include "sinew/actuator/bladder.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::robot {
 
-// Returns the actuator that the muscle names, with the muscle's own bladder values if set.
+// Returns the actuator that the muscle names, with the muscle's own bladder values if set and if
+// its bladder is stretched.
 inline actuator::Actuator actuator_of(const Muscle& muscle,
                                       const std::vector<actuator::Actuator>& actuators) {
   actuator::Actuator out;
@@ -18,6 +20,7 @@ inline actuator::Actuator actuator_of(const Muscle& muscle,
   if (std::isfinite(muscle.bladder_stiffness)) out.bladder.stiffness = muscle.bladder_stiffness;
   if (std::isfinite(muscle.bladder_rest_length))
     out.bladder.rest_length = muscle.bladder_rest_length;
+  actuator::loosen(out);
   return out;
 }
 

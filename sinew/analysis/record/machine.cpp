@@ -32,6 +32,7 @@ void seconds(Visitor& v, std::string_view name, double& value) {
 
 MachineValve machine_valve_of(const gas::Valve& valve) {
   MachineValve out{.name = valve.name, .coil = valve.coil};
+  out.rated_switchings = valve.rated_switchings;
   out.seals = valve.kind != gas::Valve::Kind::three_way;
   if (valve.drive != gas::Valve::Drive::speed_up) out.coil.boost_power = out.coil.boost_time = 0;
   if (valve.profile == gas::Valve::Profile::ideal) return out;

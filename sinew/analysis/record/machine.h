@@ -29,6 +29,7 @@ struct MachineValve {
   gas::Coil coil;
   bool seals = true;  // false: a 3-way valve, which joins its muscle to the supply or to the room
   double shut = 0;    // time from the opening edge until the shutter moves [s]
+  double rated_switchings = 0;  // openings that it is made for; 0: not given [-]
 };
 
 // A test stand with the kind and the period of its drive.
