@@ -69,6 +69,9 @@ double delivered_passiveness(const Figures&, const robot::Muscle&);
 // Adds the smallest passiveness of a joint's muscles, or of all muscles, in both ways.
 void add_smallest_passiveness(Figures&, const std::string& key, const std::string& joint = "");
 
+// Adds a muscle's cycles of contraction and pressure, and the share of its life that they used.
+void add_wear(Figures&, std::size_t muscle);
+
 // Returns the air that entered the cylinder between two rows  [kg]; 0 without a cylinder.
 double cylinder_air(const Figures&, std::size_t first, std::size_t last);
 

@@ -184,6 +184,8 @@ struct Switching {
   bool logged = false;
   Edges electrical, delivered;
   gas::Coil coil;
+  double rated = 0;  // openings that the valve is made for; 0: not given [-]
+  std::string name;  // "hip_flexor.inlet"
 };
 
 // Returns the edges of a valve of `of`, for example "hip_flexor".
@@ -195,7 +197,9 @@ Switching switching(const Figures& f, const std::string& of, const char* which,
   Switching out{.logged = true,
                 .electrical = edges_of(s->time_ns, s->columns[0]),
                 .delivered = {},
-                .coil = its.coil};
+                .coil = its.coil,
+                .rated = its.rated_switchings,
+                .name = of + "." + which};
   out.delivered = delivered(out.electrical, its.opening, its.closing);
   return out;
 }
@@ -322,6 +326,7 @@ void add_muscles(Figures& f) {
     f.add(key + "passiveness", [&] { return passiveness(f, m); });
     f.add(key + "passiveness_delivered", [&] { return delivered_passiveness(f, m); });
     f.add(key + "air_used_kg", [&] { return air_in(f, m); });
+    add_wear(f, i);
   }
 }
 
@@ -367,6 +372,10 @@ void add_valves(Figures& f) {
   add_rates(f, walk.openings, "valves.switchings_per_step", "valves.switchings_per_m");
   f.summary.add("valves.coil_time_s", run.time);
   add_rates(f, walk.time, "valves.coil_time_per_step_s", "valves.coil_time_s_per_m");
+  for (const Switching& s : valves)
+    if (s.rated > 0)
+      f.summary.add("valves." + s.name + "_life_share",
+                    openings(s.electrical, f.record.time(0), f.record.end_of(last)) / s.rated);
   if (!power_is_known(valves)) return;
   f.summary.add("valves.coil_energy_J", run.energy);
   add_rates(f, walk.energy, "valves.coil_energy_per_step_J", "valves.coil_energy_J_per_m");

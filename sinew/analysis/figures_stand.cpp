@@ -1,6 +1,6 @@
 // analysis/figures_stand.cpp - figures of a run on the test stand, from its log alone.
 //
-//   stand.…    lengths, forces, pressures at their extremes, air used
+//   stand.…    lengths, forces, pressures at their extremes, air used, cycles
 //   swing.…    a load that swings freely: turning points, period, damping by [45]-[53]
 //   pulsed.…   means and ripples of the last five periods of a pulsed valve
 //   track.…    length against the desired one
@@ -16,6 +16,8 @@
 #include <vector>
 
 #include "sinew/analysis/figures.h"
+#include "sinew/analysis/measures/laws.h"
+#include "sinew/analysis/measures/rain_flow.h"
 #include "sinew/analysis/warnings.h"
 
 namespace sinew::analysis {
@@ -78,6 +80,19 @@ void add_stand(Log& log) {
   for (const signals::Series& s : log.table.series)
     if (s.topic.name.starts_with("/valve/")) edges += s.time_ns.size();
   if (edges > 0) log.summary.add("stand.switchings", static_cast<double>(edges));
+}
+
+// Adds the cycles of contraction and pressure, by rain flow, of a stand with a muscle.
+void add_wear(Log& log, const Machine& machine) {
+  const auto a =
+      std::ranges::find(machine.actuators, log.stand.element.actuator, &actuator::Actuator::name);
+  if (a == machine.actuators.end()) return;
+  const double longest = a->long_end.length;
+  if (const Column* length = log.of_stand("length"); length && longest > 0)
+    log.summary.add("stand.contraction_cycles",
+                    cycles_in(rain_flow(*length, least_contraction * longest)));
+  if (const Column* pressure = log.muscle("pressure"))
+    log.summary.add("stand.pressure_cycles", cycles_in(rain_flow(*pressure, least_pressure)));
 }
 
 // A maximum of a sampled curve: the vertex of the parabola through three samples.
@@ -228,6 +243,7 @@ Summary summarize_stand(const signals::Table& table, const Machine& machine) {
     log.time.push_back(seconds_per_ns * static_cast<double>(ns));
   summary.faults = begun_by(machine.faults, log.time.back());
   add_stand(log);
+  add_wear(log, machine);
   add_swing(log);
   add_pulsed(log);
   add_track(log);
