@@ -140,4 +140,9 @@ std::vector<std::string> at_commas(const std::string& text) {
   return out;
 }
 
+void refuse_setting(std::string_view name, const std::string& found, const std::string& expected,
+                    const std::string& try_this) {
+  fail({std::string(name), 0, 0}, "", found, expected, try_this);
+}
+
 }  // namespace sinew::config

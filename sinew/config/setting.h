@@ -66,6 +66,10 @@ QuantityRange range_setting(std::string_view name, std::string_view text, std::s
 std::vector<double> list_setting(std::string_view name, std::string_view text,
                                  std::string_view unit, const Range& range = {});
 
+// Throws Error that begins with the setting's name.
+[[noreturn]] void refuse_setting(std::string_view name, const std::string& found,
+                                 const std::string& expected, const std::string& try_this = "");
+
 // Returns the number; throws Error like quantity_setting() if it is out of range.
 double number_setting(std::string_view name, double value, const Range& range);
 

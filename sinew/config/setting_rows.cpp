@@ -11,22 +11,12 @@
 
 namespace sinew::config {
 
-namespace {
-
-[[noreturn]] void refuse(std::string_view name, const std::string& found,
-                         const std::string& expected) {
-  fail({std::string(name), 0, 0}, "", found, expected);
-}
-
-}  // namespace
-
 void SettingValues::row(const Setting& row, const std::string& value) {
-  if (row.is_required && value.empty()) refuse(row.name, "nothing", std::string(row.doc));
+  if (row.is_required && value.empty()) refuse_setting(row.name, "nothing", std::string(row.doc));
   if (row.kind == Kind::choice && !value.empty() &&
       std::ranges::find(row.words, value) == row.words.end()) {
     const std::vector<std::string_view> words(row.words.begin(), row.words.end());
-    fail({std::string(row.name), 0, 0}, "", in_quotes(value), either(words),
-         closest_in_quotes(value, words));
+    refuse_setting(row.name, in_quotes(value), either(words), closest_in_quotes(value, words));
   }
   if (row.unit.empty()) return;
   quantities_.emplace_back(&value, row);
@@ -41,7 +31,8 @@ void SettingValues::row(const Setting& row, double value) {
 }
 
 void SettingValues::check_one(const Setting& row, std::size_t count) {
-  if (!row.is_repeated && count > 1) refuse(row.name, fmt::format("{} of them", count), "one");
+  if (!row.is_repeated && count > 1)
+    refuse_setting(row.name, fmt::format("{} of them", count), "one");
 }
 
 const Setting& SettingValues::row_of(const std::string& member) const {
@@ -69,8 +60,8 @@ std::vector<double> SettingValues::each(const std::string& member, std::size_t t
     out.push_back(quantity_setting(row.name, piece, row.unit, atmosphere_, row.range));
   if (out.size() == 1) out.resize(tables, out[0]);
   if (out.size() != tables)
-    refuse(row.name, fmt::format("{} values", out.size()),
-           fmt::format("one, or {}: one for each file", tables));
+    refuse_setting(row.name, fmt::format("{} values", out.size()),
+                   fmt::format("one, or {}: one for each file", tables));
   return out;
 }
 

@@ -23,11 +23,6 @@ namespace fs = std::filesystem;
 namespace {
 
 // Throws config::Error about the setting `use`.
-[[noreturn]] void refuse(const std::string& found, const std::string& expected,
-                         const std::string& try_this = "") {
-  config::fail({"use", 0, 0}, "", found, expected, try_this);
-}
-
 // Figures of one run, under their keys in summary.json; NaN: absent.
 struct AirFigures {
   double per_step = Value::unknown, per_metre = Value::unknown, all = Value::unknown,
@@ -91,7 +86,8 @@ AirUses of_run(const fs::path& summary_file) {
   std::ifstream in(summary_file);
   Json summary;
   if (!in || !Json::parse(in, summary) || !summary.is_object())
-    refuse(summary_file.string(), "the summary of a run", "the folder that sinew run wrote");
+    config::refuse_setting("use", summary_file.string(), "the summary of a run",
+                           "the folder that sinew run wrote");
   AirFigures figures;
   figures.each([&](const char* key, double& value) { value = member(summary, key); });
   AirUses out{.title = fmt::format("the run `{}`", summary.string("title", "")),
@@ -99,9 +95,10 @@ AirUses of_run(const fs::path& summary_file) {
               .line = Value::unknown,
               .muscles = muscles_with_air(summary)};
   if (!is_known(out.runs[0]))
-    refuse(summary_file.string() + " without figures of air", "a run whose muscles' air is logged",
-           "a simulated run");
-  if (!takes_air(out.runs[0])) refuse("a run that takes no air", "one that does");
+    config::refuse_setting("use", summary_file.string() + " without figures of air",
+                           "a run whose muscles' air is logged", "a simulated run");
+  if (!takes_air(out.runs[0]))
+    config::refuse_setting("use", "a run that takes no air", "one that does");
   const double full = member(summary, "supply.full_steps");
   if (full < figures.steps)
     out.warnings.push_back(fmt::format(
@@ -148,11 +145,12 @@ AirUses of_table(const fs::path& path) {
   for (const AirFigures& row : rows)
     if (const AirUse use = row.use(); is_known(use) && takes_air(use)) out.runs.push_back(use);
   if (out.runs.empty())
-    refuse(path.string() + " without a column of air",
-           "a table of sinew sweep with air_used_per_step_kg, air_used_kg_per_m, or air_used_kg "
-           "and duration_s",
-           "sinew sweep … --report air_used_per_step_kg --report air_used_kg_per_m --report steps "
-           "--report sequence_duration_s");
+    config::refuse_setting(
+        "use", path.string() + " without a column of air",
+        "a table of sinew sweep with air_used_per_step_kg, air_used_kg_per_m, or air_used_kg "
+        "and duration_s",
+        "sinew sweep … --report air_used_per_step_kg --report air_used_kg_per_m --report steps "
+        "--report sequence_duration_s");
   if (out.runs.size() < rows.size())
     out.notes.push_back(fmt::format("{} of {} rows have no figures of air and are left out",
                                     rows.size() - out.runs.size(), rows.size()));
@@ -189,7 +187,7 @@ AirUses of_muscle(const AirSettings& s) {
               .air = air,
               .line = air.atmosphere + pressure,
               .muscles = s.muscles};
-  if (!(rate > 0)) refuse("muscles that take no air", "ones that do");
+  if (!(rate > 0)) config::refuse_setting("use", "muscles that take no air", "ones that do");
   out.notes.push_back("each muscle is vented to the room before it is filled again");
   return out;
 }
@@ -199,8 +197,9 @@ AirUses of_muscle(const AirSettings& s) {
 AirUses air_uses(const AirSettings& s) {
   const fs::path path = s.use;
   if (!fs::exists(path))
-    refuse(config::in_quotes(s.use),
-           "the folder of a run, its summary.json, the table of a sweep or a file of an actuator");
+    config::refuse_setting(
+        "use", config::in_quotes(s.use),
+        "the folder of a run, its summary.json, the table of a sweep or a file of an actuator");
   if (fs::is_directory(path)) return of_run(path / run::summary_name);
   if (path.extension() == ".json") return of_run(path);
   if (path.filename() == run::log_name) return of_run(path.parent_path() / run::summary_name);

@@ -39,23 +39,24 @@ JointTask task_of(const JointSettings& s, const config::SettingValues& values) {
   task.external_volume = values.of(s.external_volume);
   task.arm = s.arm == "lever" ? Arm::lever : Arm::cam;
   if (s.torque.empty() == s.load.empty())
-    config::fail({"torque", 0, 0}, "", s.torque.empty() ? "nothing" : "a load with it",
-                 "a torque, or a load at a lever", R"(torque="2 N m")");
+    config::refuse_setting("torque", s.torque.empty() ? "nothing" : "a load with it",
+                           "a torque, or a load at a lever", R"(torque="2 N m")");
   if (!s.torque.empty()) task.torque = values.of(s.torque);
   for (const auto& [name, text] : {std::pair{"lever", s.lever}, {"time", s.time}})
     if (s.load.empty() && !text.empty())
-      config::fail({name, 0, 0}, "", "no load", "one with a load", R"(load="2 kg")");
+      config::refuse_setting(name, "no load", "one with a load", R"(load="2 kg")");
   if (s.load.empty()) return task;
   if (s.lever.empty())
-    config::fail({"lever", 0, 0}, "", "nothing", "the distance of the load", R"(lever="0.2 m")");
+    config::refuse_setting("lever", "nothing", "the distance of the load", R"(lever="0.2 m")");
   const double mass = values.of(s.load), lever = values.of(s.lever);
   task.torque = mass * units::standard_gravity * lever;
   // A stroke that speeds up over one half and slows down over the other one: a = 4 A/t^2.
   if (const auto time = values.given(s.time))
     task.torque += mass * lever * lever * 4 * task.angles / (*time * *time);
   if (task.arm == Arm::lever && task.motion >= 3)
-    config::fail({"motion", 0, 0}, "", config::in_quotes(s.motion),
-                 "less than 170 deg with a lever, whose arm is zero at its dead points", "a cam");
+    config::refuse_setting("motion", config::in_quotes(s.motion),
+                           "less than 170 deg with a lever, whose arm is zero at its dead points",
+                           "a cam");
   return task;
 }
 
@@ -284,9 +285,9 @@ std::string robot_file(const JointSettings& s, const Candidate& c, double extern
     muscles.put(muscle);
   }
   if (muscles.children.size() != 2)
-    config::fail({"joint", 0, 0}, "",
-                 fmt::format("{} muscles of this joint alone", muscles.children.size()),
-                 "a flexor and an extensor");
+    config::refuse_setting("joint",
+                           fmt::format("{} muscles of this joint alone", muscles.children.size()),
+                           "a flexor and an extensor");
   config::Node root = identify::robot_over(s.base, out);
   config::Node files = config::make_table("files");
   files.put(config::make_text(

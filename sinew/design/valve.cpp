@@ -23,52 +23,51 @@ constexpr double rounding = 1 + 1e-9;
 
 // --- the task ---
 
-[[noreturn]] void refuse(std::string_view setting, const std::string& found,
-                         const std::string& expected, const std::string& try_this = "") {
-  config::fail({std::string(setting), 0, 0}, "", found, expected, try_this);
-}
-
 std::string gauge_text(const gas::Air& air, double pressure) {
   return units::format_quantity(pressure - air.atmosphere, "Pa gauge", "bar gauge", 4);
 }
 
 void require_volume(const AirChange& change) {
   if (!(change.volume_from.low > 0 && change.volume_to.low > 0))
-    refuse("volume", "no air in the muscle", "a volume above 0, or an actuator with its lengths");
+    config::refuse_setting("volume", "no air in the muscle",
+                           "a volume above 0, or an actuator with its lengths");
 }
 
 void require_fill(const ValveTask& task) {
   const AirChange& fill = *task.fill;
   require_volume(fill);
   if (fill.to >= task.supply)
-    refuse("pressure", gauge_text(task.air, fill.to),
-           "a pressure below that of the supply, " + gauge_text(task.air, task.supply));
+    config::refuse_setting(
+        "pressure", gauge_text(task.air, fill.to),
+        "a pressure below that of the supply, " + gauge_text(task.air, task.supply));
   if (fill.to < fill.from)
-    refuse("pressure", gauge_text(task.air, fill.to),
-           "no less than the pressure at the start, " + gauge_text(task.air, fill.from));
+    config::refuse_setting(
+        "pressure", gauge_text(task.air, fill.to),
+        "no less than the pressure at the start, " + gauge_text(task.air, fill.from));
   if (fill.volume_to.low < fill.volume_from.low)
-    refuse("contracted_length", "less air in the muscle than at the start",
-           "a shorter muscle, which holds more");
+    config::refuse_setting("contracted_length", "less air in the muscle than at the start",
+                           "a shorter muscle, which holds more");
 }
 
 void require_vent(const ValveTask& task) {
   const AirChange& vent = *task.vent;
   require_volume(vent);
   if (vent.to <= task.air.atmosphere)
-    refuse("vent_to", gauge_text(task.air, vent.to),
-           "a pressure above that of the room, into which the muscle is vented");
+    config::refuse_setting("vent_to", gauge_text(task.air, vent.to),
+                           "a pressure above that of the room, into which the muscle is vented");
   if (vent.to > vent.from)
-    refuse("vent_to", gauge_text(task.air, vent.to),
-           "no more than the pressure at the start, " + gauge_text(task.air, vent.from));
+    config::refuse_setting(
+        "vent_to", gauge_text(task.air, vent.to),
+        "no more than the pressure at the start, " + gauge_text(task.air, vent.from));
 }
 
 void require_pulses(const ValveTask& task) {
   if (task.step > 0 && !(task.frequency > 0))
-    refuse("step", "a pressure step without pulses", "their frequency too");
+    config::refuse_setting("step", "a pressure step without pulses", "their frequency too");
   if (!(task.frequency > 0)) return;
   if (!(task.duty.low > 0 && task.duty.low < task.duty.high && task.duty.high < 1))
-    refuse("duty", fmt::format("{:.4g} to {:.4g}", task.duty.low, task.duty.high),
-           "two duties between 0 and 1, the smaller one first");
+    config::refuse_setting("duty", fmt::format("{:.4g} to {:.4g}", task.duty.low, task.duty.high),
+                           "two duties between 0 and 1, the smaller one first");
 }
 
 void require_possible(const ValveTask& task) {
@@ -76,8 +75,8 @@ void require_possible(const ValveTask& task) {
   if (task.vent) require_vent(task);
   require_pulses(task);
   if (!task.fill && !task.vent)
-    refuse("valve", "nothing that the valve has to do",
-           "a fill_time, a vent_time, or the frequency of pulses");
+    config::refuse_setting("valve", "nothing that the valve has to do",
+                           "a fill_time, a vent_time, or the frequency of pulses");
 }
 
 // --- flow ---

@@ -21,11 +21,6 @@ namespace {
 
 constexpr std::string_view given_name = "yours";
 
-[[noreturn]] void refuse_setting(std::string_view setting, const std::string& found,
-                                 const std::string& expected, const std::string& try_this = "") {
-  config::fail({std::string(setting), 0, 0}, "", found, expected, try_this);
-}
-
 // --- the muscle ---
 
 // Air and volumes of the muscle that is filled.
@@ -42,20 +37,21 @@ Bounds with_uncertainty(double volume, double share) {
 double volume_at(const actuator::Actuator& a, double length, std::string_view setting) {
   const double volume = actuator::volume(a, length);
   if (volume > 0) return volume;
-  refuse_setting(setting, units::format_quantity(length, "m", "mm"),
-                 "a length at which the muscle holds air: its threads are " +
-                     units::format_quantity(a.braid.thread_length, "m", "mm") + " long");
+  config::refuse_setting(setting, units::format_quantity(length, "m", "mm"),
+                         "a length at which the muscle holds air: its threads are " +
+                             units::format_quantity(a.braid.thread_length, "m", "mm") + " long");
 }
 
 Filled filled_by_volume(const ValveSettings& s, const config::SettingValues& values) {
   for (const auto& [setting, text] :
        {std::pair{"length", s.length}, {"contracted_length", s.contracted_length}})
     if (!text.empty())
-      refuse_setting(setting, "a length without the muscle's file", "a length of an actuator",
-                     R"(actuator="robots/leg/actuator.toml")");
+      config::refuse_setting(setting, "a length without the muscle's file",
+                             "a length of an actuator", R"(actuator="robots/leg/actuator.toml")");
   if (s.volume.empty())
-    refuse_setting("volume", "nothing", "the volume of the muscle, or its actuator file and length",
-                   R"(volume="50 mL")");
+    config::refuse_setting("volume", "nothing",
+                           "the volume of the muscle, or its actuator file and length",
+                           R"(volume="50 mL")");
   const double volume = s.count * values.of(s.volume) + values.of(s.external_volume);
   const Bounds bounds = with_uncertainty(volume, values.of(s.uncertainty));
   return {{}, bounds, bounds};
@@ -66,10 +62,11 @@ Filled filled_by_actuator(const ValveSettings& s) {
   const config::SettingValues values(s, file.experiment.air.atmosphere);
   const actuator::Actuator& a =
       config::named(file.experiment.actuators, s.name, "name", "actuator");
-  if (!s.volume.empty()) refuse_setting("volume", "a volume with an actuator", "one of them");
+  if (!s.volume.empty())
+    config::refuse_setting("volume", "a volume with an actuator", "one of them");
   if (s.length.empty())
-    refuse_setting("length", "nothing", "the length of the muscle as it begins to fill",
-                   R"(length="90 mm")");
+    config::refuse_setting("length", "nothing", "the length of the muscle as it begins to fill",
+                           R"(length="90 mm")");
   const double share = values.of(s.uncertainty), hose = values.of(s.external_volume);
   const double begin = s.count * volume_at(a, values.of(s.length), "length") + hose;
   const double end =
@@ -131,9 +128,9 @@ gas::Flow flow_of(const std::string& text, double critical_ratio, const gas::Air
     out = {.area = number("m2", 1)};
   } else {
     const std::vector<std::string_view> words{"C", "Qn", "Kv", "Cv", "A"};
-    refuse_setting("flow", config::in_quotes(text),
-                   "C, Qn, Kv, Cv or A and its value, such as \"Cv 0.04\"",
-                   config::closest_in_quotes(word, words));
+    config::refuse_setting("flow", config::in_quotes(text),
+                           "C, Qn, Kv, Cv or A and its value, such as \"Cv 0.04\"",
+                           config::closest_in_quotes(word, words));
   }
   return out;
 }
@@ -379,8 +376,8 @@ Result design(const ValveSettings& s) {
     for (const auto& [setting, text] :
          {std::pair{"opening_delay", s.opening_delay}, {"closing_delay", s.closing_delay}})
       if (!text.empty())
-        refuse_setting(setting, "a delay without its valve", "the flow of that valve",
-                       R"(flow="Cv 0.04")");
+        config::refuse_setting(setting, "a delay without its valve", "the flow of that valve",
+                               R"(flow="Cv 0.04")");
   const ValveNeed need = need_of(task);
   std::vector<PublishedValve> valves =
       published_valves(s.catalogue.empty() ? shipped_catalogue() : s.catalogue);
