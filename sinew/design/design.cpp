@@ -88,6 +88,18 @@ void put_table(std::string& out, const Table& table, const TextOptions& how) {
                    table.rows.size() - table.shown);
 }
 
+// Gives each curve without a color the next one of its plot; a band has that of the curve before.
+std::vector<report::Plot> with_colors(std::vector<report::Plot> plots) {
+  for (report::Plot& plot : plots) {
+    int color = 0;
+    for (report::Curve& c : plot.curves) {
+      const bool band = c.style == report::Curve::Style::band;
+      if (c.color == report::Curve::next) c.color = band ? std::max(color - 1, 0) : color++;
+    }
+  }
+  return plots;
+}
+
 }  // namespace
 
 const Value& Result::of(const std::string& key) const {
@@ -168,7 +180,7 @@ std::string page_of(const Result& result, double atmosphere, const std::string& 
                                          .atmosphere = atmosphere,
                                          .values = values,
                                          .tables = tables,
-                                         .plots = result.plots,
+                                         .plots = with_colors(result.plots),
                                          .refused = result.refused,
                                          .notes = result.notes,
                                          .warnings = result.warnings,
