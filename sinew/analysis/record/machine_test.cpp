@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "sinew/actuator/life.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/robot/actuator_of.h"
@@ -38,6 +41,20 @@ TEST(Machine, ActuatorsCarryTheirMusclesBladder) {
   const actuator::Actuator a = robot::actuator_of(muscle, m.actuators);
   EXPECT_GT(a.braid.thread_length, 0);
   EXPECT_EQ(a.bladder.stiffness, muscle.bladder_stiffness);
+
+  const Machine loose = read("walk-test-1.toml", {"actuator.bpa.bladder.fit=oversized"});
+  EXPECT_EQ(robot::actuator_of(loose.robot.muscles.front(), loose.actuators).bladder.stiffness, 0);
+}
+
+// The leg's bounds follow from the three failures of 6.4, rounded outwards.
+TEST(Machine, TheLegsLifeIsThatOfThreeBursts) {
+  const Machine m = read("walk-test-1.toml");
+  double actuators = 0;
+  for (const robot::Muscle& muscle : m.robot.muscles) actuators += muscle.count;
+  const actuator::Bounds counted = actuator::life_from_failures(3, 200 * actuators);
+  const actuator::Life& life = m.actuators.front().life;
+  EXPECT_EQ(life.cycles_over, std::floor(counted.least));
+  EXPECT_EQ(life.cycles_under, std::ceil(counted.most));
 }
 
 TEST(Machine, ValvesHaveTheDelaysOfTheirProfile) {
