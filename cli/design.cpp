@@ -38,6 +38,9 @@ constexpr DesignHelp designs[] = {
      "sinew design air --use runs/walk-test-1/1 --volume \"1 L\" --pressure \"200 bar gauge\" "
      "--mass "
      "\"0.9 kg\""},
+    {"life",
+     "sinew design life --actuator robots/leg/actuator.toml --contraction \"20 %\" --cycles "
+     "\"0.4 Hz\" --muscles 8 --duration \"10 min\""},
 };
 
 template <class Settings>

@@ -23,7 +23,7 @@ constexpr std::string_view settings =
     "conductance contraction cycles dates decimal diameter down droop droop_flow "
     "drop_incomplete encoding exponent external_volume flexion flexor_length force frequency "
     "full_scale hold_out json keep_force known label largest law_error lever line load "
-    "machine model moment_arm most motion muscle_pressure muscles names offsets only part "
+    "machine made model moment_arm most motion muscle_pressure muscles names offsets only part "
     "per_volume points port pressure range rate reading report rest rest_length root sensors "
     "shard spread_times thousands time torque units values vary volume where ";
 
@@ -37,10 +37,11 @@ constexpr std::string_view subjects =
 constexpr std::string_view quantities =
     " added_volume align align_by angles arm atmosphere base bits branch bridge channels "
     "clock compressor compressor_mass concentration conductance contraction count criterion "
-    "cycles dates decimal diameter down droop droop_flow encoding error event excitation "
+    "cycles dates decimal diameter down droop droop_flow duration duty encoding error event "
+    "excitation "
     "exponent extensor_length external_volume fit fit_where flexion flexor_length font foot "
     "force fps frequency from full_scale gage_factor gages gain height hold_out kind label "
-    "law_error length length_error lever limb limb_lever line load longest lowest machine "
+    "law_error length length_error lever limb limb_lever line load longest lowest machine made "
     "mass modulus moment_arm most motion mount_time muscle_pressure muscles name noise "
     "output poisson port predict predict_dat pressure prior rate reading rest rest_angle "
     "rest_length sensitivity shortest side speed step_time temperature thousands "

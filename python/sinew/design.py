@@ -19,7 +19,7 @@ from sinew import _sinew
 from sinew._found import _write, settings_text
 from sinew._tables import Path
 
-__all__ = ["Design", "air", "joint", "valve"]
+__all__ = ["Design", "air", "joint", "life", "valve"]
 
 Setting = Union[float, int, str, "os.PathLike[str]", None]
 
@@ -79,3 +79,4 @@ def _calculation(name: str, doc: str) -> Callable[..., Design]:
 joint = _calculation("joint", "Return the feasible joints with a pair of muscles, and the one that needs the fewest.")
 valve = _calculation("valve", "Return the flow and the delays that a valve of a muscle needs, and the valves that have them.")
 air = _calculation("air", "Return how long a store of air lasts: time, steps and distance, with their spread.")
+life = _calculation("life", "Return how many cycles and how long muscles last, as the range that is known.")

@@ -32,7 +32,7 @@ TextOptions::Shown shown_as(double si, const std::string& unit, const std::strin
   return {si * scale, own, scale};
 }
 
-// The same for a page, which converts units of SI by itself.
+// Returns the same for a page, which converts units of SI by itself.
 std::pair<double, std::string> on_page(double si, const std::string& unit, const std::string& own) {
   const TextOptions::Shown shown = shown_as(si, unit, own, {});
   return {shown.number, shown.unit};

@@ -13,6 +13,7 @@ void for_each_design(const Each& each) {
   each(JointSettings{});
   each(ValveSettings{});
   each(AirSettings{});
+  each(LifeSettings{});
 }
 
 // Returns the feasible joints as a table, and the one with the fewest muscles; of these, the one
@@ -26,5 +27,9 @@ Result design(const ValveSettings& settings);
 // Returns the time, steps and distance on the store's air, with their spread, the store's exergy,
 // and the cost of one more muscle. Refuses a store below the line's pressure.
 Result design(const AirSettings& settings);
+
+// Returns the cycles and the time until a muscle fails, the time to the first failure of all, and
+// the probability that none fails, each as the range that its evidence allows.
+Result design(const LifeSettings& settings);
 
 }  // namespace sinew::design

@@ -222,4 +222,44 @@ void fields(Visitor& v, AirSettings& s) {
       s.external_volume);
 }
 
+// --- life ---
+
+// Cycles and time until a muscle of a robot fails.
+struct LifeSettings {
+  std::string actuator, name, made;
+  std::string contraction, pressure, cycles, duty = "100 %", duration;
+  int muscles = 1;
+};
+
+template <class Visitor>
+void fields(Visitor& v, LifeSettings& s) {
+  v.method(
+      {"life", "Find how many cycles and how long muscles last, as a range", config::Tables::none});
+  v.file(Setting{"actuator", "actuator file of the muscle, with its table [life]"}.required(),
+         s.actuator);
+  v.text({"name", "name of the actuator, where the file has several"}, s.name);
+  v.choice(
+      {"made", "kind of the muscle's ends, in place of [life]: published tests of such muscles"},
+      s.made, {"clamped", "swaged"});
+  v.quantity(Setting{"contraction", "range of contraction in a cycle, of the stretched length", "1",
+                     config::above_zero(0.5, "of a braid")}
+                 .required(),
+             s.contraction);
+  v.quantity({"pressure", "largest pressure in a cycle", "Pa gauge",
+              config::above_zero(config::greatest_pressure, config::air_pressure.why)},
+             s.pressure);
+  v.quantity(Setting{"cycles", "cycles of each muscle per time, while the robot moves", "Hz",
+                     config::above_zero(1000, "of a muscle")}
+                 .required(),
+             s.cycles);
+  v.quantity({"duty", "share of the time in which the robot moves", "1",
+              config::above_zero(1, "of the time")},
+             s.duty);
+  v.integer({"muscles", "number of muscles of the robot", "", {1, 10000, "of a robot"}}, s.muscles);
+  v.quantity(
+      {"duration", "time that the robot is to last: gives the probability that no muscle fails",
+       "s", config::above_zero(1e9, "of a robot")},
+      s.duration);
+}
+
 }  // namespace sinew::design
