@@ -63,7 +63,7 @@ TEST(DesignLife, ABoundThatIsNotPublishedStaysUnknown) {
 
 TEST(DesignLife, SaysWhatIsWrong) {
   LifeSettings s = leg();
-  s.actuator = test::source_dir() + "/robots/stand/equations.toml";
+  s.actuator = test::source_dir() + "/data/templates/actuator.toml";
   EXPECT_THAT(test::message([&] { (void)design(s); }), testing::HasSubstr("made=swaged"));
   s = leg();
   s.contraction = "0,2";
