@@ -75,8 +75,9 @@ void require_possible(const ValveTask& task) {
   if (task.vent) require_vent(task);
   require_pulses(task);
   if (!task.fill && !task.vent)
-    config::refuse_setting("valve", "nothing that the valve has to do",
-                           "a fill_time, a vent_time, or the frequency of pulses");
+    config::refuse_setting("fill_time", "nothing",
+                           "a time to fill or to vent, or the frequency of pulses",
+                           R"(fill_time="100 ms")");
 }
 
 // --- flow ---
@@ -134,7 +135,9 @@ class Judge {
   ValveChoice choice() {
     out_.name = valve_.name;
     out_.kind = valve_.kind;
-    out_.sonic_conductance = conductance_of(valve_.flow, task_.air);
+    const double c = out_.sonic_conductance = conductance_of(valve_.flow, task_.air);
+    out_.conductance = {c * published_.flow.low, c * published_.flow.high};
+    if (!published_.is_flow_published) out_.conductance = {ValveNeed::none, ValveNeed::none};
     out_.opening = at_pressure(published_.opening, valve_.opening_delay_slope);
     out_.closing = at_pressure(published_.closing, valve_.closing_delay_slope);
     judge_pressure();

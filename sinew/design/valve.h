@@ -77,7 +77,10 @@ enum class Verdict { suffices, may_suffice, unknown, misses };
 struct ValveChoice {
   std::string name;
   gas::Valve::Kind kind = gas::Valve::Kind::two_way;
-  double sonic_conductance = 0;                      // C with the same choked flow [m3/(s Pa)]
+  // C with the same choked flow, a guess if it is not published; and its bounds, then NaN
+  // [m3/(s Pa)].
+  double sonic_conductance = 0;
+  Bounds conductance;
   Bounds fill = {ValveNeed::none, ValveNeed::none};  // times with the opening delay [s]
   Bounds vent = fill;
   Bounds step = fill;                      // pressure step of the shortest pulse [Pa]

@@ -220,20 +220,21 @@ Table table_of(const std::vector<ValveChoice>& choices) {
             .columns = {{"valve", "valve"},
                         {"suffices", "suffices"},
                         {"kind", "kind"},
-                        {"sonic_conductance_m3_per_s_Pa", "C", "m3/(s Pa)"},
-                        {"fill_time_s", "fills in", "s"},
-                        {"vent_time_s", "vents in", "s"},
-                        {"step_Pa", "step", "Pa diff"},
-                        {"opening_delay_s", "opens", "s"},
-                        {"closing_delay_s", "shuts", "s"},
+                        {"sonic_conductance_m3_per_s_Pa_low", "C from", "m3/(s Pa)"},
+                        {"sonic_conductance_m3_per_s_Pa_high", "to", "m3/(s Pa)"},
+                        {"fill_time_s", "fills within", "s"},
+                        {"vent_time_s", "vents within", "s"},
+                        {"step_Pa", "step up to", "Pa diff"},
+                        {"opening_delay_s", "opens within", "s"},
+                        {"closing_delay_s", "shuts within", "s"},
                         {"remarks", "remarks"}},
             .rows = {},
             .shown = 40};
   for (const ValveChoice& c : choices)
     out.rows.push_back({c.name, words_of(c.verdict),
                         c.name == given_name ? std::string("-") : words_of(c.kind),
-                        c.sonic_conductance, c.fill.high, c.vent.high, c.step.high,
-                        slowest(c.opening), slowest(c.closing), joined(c.remarks)});
+                        c.conductance.low, c.conductance.high, c.fill.high, c.vent.high,
+                        c.step.high, slowest(c.opening), slowest(c.closing), joined(c.remarks)});
   return out;
 }
 
@@ -349,8 +350,7 @@ void add_notes(Result& out, const std::vector<ValveChoice>& choices) {
       "a 2-way valve does one direction: one fills, another one vents, and shut they trap the "
       "air; a 3-way valve does both and traps none (Colbrunn 2000, 5.1)");
   out.notes.push_back(
-      "remark \"unknown\": a number is not published; measure it with sinew "
-      "identify valve");
+      "unknown: a number that decides is not published; sinew identify valve measures it");
 }
 
 void add_warnings(Result& out, const std::vector<ValveChoice>& choices, const ValveNeed& need) {
