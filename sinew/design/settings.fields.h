@@ -86,7 +86,8 @@ struct ValveSettings {
   std::string supply, pressure, start = "0 bar gauge", vent_to;
   std::string fill_time, vent_time;
   std::string frequency, least_duty = "10 %", greatest_duty = "90 %", step;
-  std::string critical_ratio = "0.3", flow, opening_delay, closing_delay, catalogue;
+  std::string critical_ratio = "0.3", flow, opening_delay, closing_delay;
+  std::vector<std::string> catalogue;
 };
 
 // Visits the rows of the muscle that a valve fills.
@@ -122,8 +123,10 @@ void given_valve_fields(Visitor& v, ValveSettings& s) {
          s.flow);
   v.quantity({"opening_delay", "time in which that valve opens", "s", delay}, s.opening_delay);
   v.quantity({"closing_delay", "time in which that valve shuts", "s", delay}, s.closing_delay);
-  v.file({"catalogue", "valves file to choose from; default: data/valves.toml of Sinew"},
-         s.catalogue);
+  v.texts({"catalogue",
+           "FILE: valves to choose from, of a valves or robot file; default: Sinew's own, "
+           "data/valves.toml"},
+          s.catalogue);
 }
 
 template <class Visitor>

@@ -216,15 +216,13 @@ class Judge {
 
   void judge_step() {
     if (!(task_.frequency > 0) || !out_.opening || !out_.closing) return;
+    if (out_.opening->low >= need_.opening_below) return;  // no pulse opens it
     const Bounds rate = fastest_rate(task_, valve_.flow);
     const auto open = [&](double opening, double closing) {
       return signals::delivered_open_time(task_.duty.low, 1.0 / task_.frequency, opening, closing);
     };
-    const Bounds step{
-        rate.low * published_.flow.low * open(out_.opening->high, out_.closing->low),
-        rate.high * published_.flow.high * open(out_.opening->low, out_.closing->high)};
-    if (!(step.high > 0)) return;  // no pulse opens it
-    out_.step = step;
+    out_.step = {rate.low * published_.flow.low * open(out_.opening->high, out_.closing->low),
+                 rate.high * published_.flow.high * open(out_.opening->low, out_.closing->high)};
     if (!(task_.step > 0) || out_.step.high <= task_.step * rounding) return;
     const std::string is = between(out_.step, units::bar, "bar");
     put(out_.step.low <= task_.step * rounding ? Verdict::may_suffice : Verdict::misses,

@@ -100,7 +100,16 @@ ValveTask task_of(const ValveSettings& s, const config::SettingValues& values,
   return task;
 }
 
-// --- a valve of one's own ---
+// --- the valves ---
+
+// Returns the valves of all catalogues.
+std::vector<PublishedValve> valves_of(const ValveSettings& s) {
+  std::vector<PublishedValve> out;
+  const bool shipped = s.catalogue.empty();
+  for (const std::string& path : shipped ? std::vector{shipped_catalogue()} : s.catalogue)
+    for (PublishedValve& valve : published_valves(path)) out.push_back(std::move(valve));
+  return out;
+}
 
 // Returns the flow of "Cv 0.04" and the like.
 gas::Flow flow_of(const std::string& text, double critical_ratio, const gas::Air& air) {
@@ -379,8 +388,7 @@ Result design(const ValveSettings& s) {
         config::refuse_setting(setting, "a delay without its valve", "the flow of that valve",
                                R"(flow="Cv 0.04")");
   const ValveNeed need = need_of(task);
-  std::vector<PublishedValve> valves =
-      published_valves(s.catalogue.empty() ? shipped_catalogue() : s.catalogue);
+  std::vector<PublishedValve> valves = valves_of(s);
   if (!s.flow.empty()) valves.push_back(given_valve(s, values, task));
   const std::vector<ValveChoice> choices = choose_valves(task, valves);
 
