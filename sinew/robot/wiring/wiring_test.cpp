@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <random>
+#include <sstream>
 
 #include "sinew/config/compose.h"
 #include "sinew/config/reader.h"
@@ -43,6 +45,32 @@ Bits bits(const Leg& l) {
   Bits out;
   for (const ValveBit& b : bits_of(l.robot, l.wiring)) out[b.of + " " + b.which] = b.bit;
   return out;
+}
+
+// The page has every line of the files.
+TEST(Wiring, OfTheLegIsThatOfItsPage) {
+  std::ifstream in(sinew::test::source_dir() + "/docs/reference/thesis-wiring.md");
+  std::ostringstream all;
+  all << in.rdbuf();
+  const std::string page = all.str();
+  const auto expect_row = [&](std::initializer_list<std::string> cells) {
+    std::string row = "|";
+    for (const std::string& cell : cells) row += " " + cell + " |";
+    EXPECT_NE(page.find(row), std::string::npos) << row;
+  };
+  const auto code = [](const std::string& name) { return "`" + name + "`"; };
+  const auto text = [](int number) { return std::to_string(number); };
+  const Leg l = leg();
+  for (const Wiring::Signal& s : l.wiring.signals)
+    expect_row({text(s.pin), text(s.ground), code(s.name), s.channel < 0 ? "–" : text(s.channel)});
+  for (const Wiring::Power& p : l.wiring.power)
+    EXPECT_NE(page.find("| " + text(p.pin) + " | " + code(p.name)), std::string::npos) << p.name;
+  const Bits of_robot = bits(l);
+  for (const Wiring::Valve& v : l.wiring.valves)
+    expect_row({text(v.plumbing), code(v.of), text(v.inlet.pin) + ", " + text(v.inlet.common),
+                text(v.inlet.bit), text(of_robot.at(v.of + " inlet")),
+                text(v.exhaust.pin) + ", " + text(v.exhaust.common), text(v.exhaust.bit),
+                text(of_robot.at(v.of + " exhaust"))});
 }
 
 // Every pin of table C-1 once, with both numberings as printed.
