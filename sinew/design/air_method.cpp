@@ -306,7 +306,7 @@ Result design(const AirSettings& s) {
       out.title = title_of(out, uses);
       out.refused = fmt::format(
           "no design: the store has {}, the line needs {}; try a higher pressure, or a lower "
-          "`lowest`",
+          "pressure in the line",
           gauge_bar(store.pressure, uses.air), gauge_bar(store.lowest, uses.air));
       return out;
     }

@@ -149,8 +149,8 @@ AirUses of_table(const fs::path& path) {
         "use", path.string() + " without a column of air",
         "a table of sinew sweep with air_used_per_step_kg, air_used_kg_per_m, or air_used_kg "
         "and duration_s",
-        "sinew sweep … --report air_used_per_step_kg --report air_used_kg_per_m --report steps "
-        "--report sequence_duration_s");
+        "a sweep with report=air_used_per_step_kg, report=air_used_kg_per_m, report=steps and "
+        "report=sequence_duration_s");
   if (out.runs.size() < rows.size())
     out.notes.push_back(fmt::format("{} of {} rows have no figures of air and are left out",
                                     rows.size() - out.runs.size(), rows.size()));
