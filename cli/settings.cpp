@@ -21,11 +21,12 @@ constexpr Renamed renamed[] = {
 constexpr std::string_view settings =
     " actuator added_volume align anyway arm base bits candidate columns compressor "
     "conductance contraction cycles dates decimal diameter down droop droop_flow "
-    "drop_incomplete encoding exponent external_volume flexion flexor_length force frequency "
-    "full_scale hold_out json keep_force known label largest law_error lever line load "
-    "machine made model moment_arm most motion muscle_pressure muscles names offsets only part "
-    "per_volume points port pressure range rate reading report rest rest_length root sensors "
-    "shard spread_times thousands time torque units values vary volume where ";
+    "drop_incomplete encoding exponent external_volume fill_time flexion flexor_length flow "
+    "force frequency full_scale hold_out json keep_force known label largest law_error lever "
+    "line load machine made model moment_arm most motion muscle_pressure muscles names "
+    "offsets only part per_volume points port pressure range rate reading report rest "
+    "rest_length root sensors shard spread_times thousands time torque units values vary "
+    "volume where ";
 
 // Settings that can be the subject of a problem: at the begin of a line, or behind a file's name.
 // A name with a line number is a key of that file.
@@ -36,17 +37,18 @@ constexpr std::string_view subjects =
 // Settings that can be the subject at the begin of a line alone: a file may have such a column.
 constexpr std::string_view quantities =
     " added_volume align align_by angles arm atmosphere base bits branch bridge channels "
-    "clock compressor compressor_mass concentration conductance contraction count criterion "
-    "cycles dates decimal diameter down droop droop_flow duration duty encoding error event "
-    "excitation "
-    "exponent extensor_length external_volume fit fit_where flexion flexor_length font foot "
-    "force fps frequency from full_scale gage_factor gages gain height hold_out kind label "
-    "law_error length length_error lever limb limb_lever line load longest lowest machine made "
-    "mass modulus moment_arm most motion mount_time muscle_pressure muscles name noise "
-    "output poisson port predict predict_dat pressure prior rate reading rest rest_angle "
-    "rest_length sensitivity shortest side speed step_time temperature thousands "
-    "thread_thickness threads time title to torque trapezoids use volume width window within "
-    "yield ";
+    "clock closing_delay compressor compressor_mass concentration conductance "
+    "contracted_length contraction count criterion critical_ratio cycles dates decimal "
+    "diameter down droop droop_flow duration duty encoding error event excitation exponent "
+    "extensor_length external_volume fill_time fit fit_where flexion flexor_length flow font "
+    "foot force fps frequency from full_scale gage_factor gages gain greatest_duty height "
+    "hold_out kind label law_error least_duty length length_error lever limb limb_lever line "
+    "load longest lowest machine made mass modulus moment_arm most motion mount_time "
+    "muscle_pressure muscles name noise opening_delay output poisson port predict "
+    "predict_dat pressure prior rate reading rest rest_angle rest_length sensitivity "
+    "shortest side speed start step step_time supply temperature thousands thread_thickness "
+    "threads time title to torque trapezoids uncertainty use vent_time vent_to volume width "
+    "window within yield ";
 
 bool is_one_of(std::string_view word, std::string_view words) {
   return words.find(" " + std::string(word) + " ") != words.npos;
