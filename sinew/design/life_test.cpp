@@ -63,7 +63,7 @@ TEST(DesignLife, ABoundThatIsNotPublishedStaysUnknown) {
 
 TEST(DesignLife, SaysWhatIsWrong) {
   LifeSettings s = leg();
-  s.actuator = test::source_dir() + "/examples/08-your-own-loop/muscle.toml";
+  s.actuator = test::source_dir() + "/examples/13-from-a-lab/truth.toml";
   EXPECT_THAT(test::message([&] { (void)design(s); }), testing::HasSubstr("made=swaged"));
   s = leg();
   s.contraction = "0,2";
