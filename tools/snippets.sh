@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # snippets.sh   checks that program lines in pages are lines of programs that are run: C++ and Python in
 # examples/*/README.md must be in main.cpp and main.py of that folder; C++, Python and sh in README.md must be in
-# main.cpp, main.py and run.sh of examples/readme. A snippet must be one contiguous part of its file, word for
+# main.cpp, main.py and run.sh of examples/readme, and sh in docs/how-to/design.md in run.sh of lesson 14. A snippet must be one contiguous part of its file, word for
 # word, except for indentation.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -27,12 +27,17 @@ check='
     bad = 1
   }
 
-  FNR == 1 { folder = FILENAME; if (!sub(/\/[^\/]*$/, "", folder)) folder = "examples/readme"; language = "" }
+  FNR == 1 {
+    folder = FILENAME
+    if (!sub(/\/[^\/]*$/, "", folder)) folder = "examples/readme"
+    if (folder == "docs/how-to") folder = "examples/14-leg-on-paper"
+    language = ""
+  }
   /^```/ && language != "" { judge(); language = ""; next }
-  /^```(cpp|python)$/ || (/^```sh$/ && FILENAME == "README.md") {
+  /^```(cpp|python)$/ || (/^```sh$/ && FILENAME !~ /^examples/) {
     language = substr($0, 4); begin = FNR; lines = 0; next
   }
   language != "" { snippet[++lines] = bare($0) }
-  END { if (bad) exit 1; print "snippets: " good " in README.md and examples/*/README.md, each is in its program" }
+  END { if (bad) exit 1; print "snippets: " good " in pages, each is in its program" }
 '
-awk "$check" README.md examples/*/README.md
+awk "$check" README.md docs/how-to/design.md examples/*/README.md

@@ -49,13 +49,12 @@ Evidence evidence_of(const LifeSettings& s, const experiment::Experiment& file,
   return out;
 }
 
-LifeBounds in_hours(LifeBounds time) { return {time.least / 3600, time.most / 3600}; }
-
 // Adds a range: unknown bounds stay unknown; without any the value is left out.
 void add(Result& out, const std::string& key, const std::string& name, const std::string& unit,
          LifeBounds bounds, const std::string& note) {
   Value v{.key = key, .name = name, .unit = unit, .note = note};
   v.number = Value::unknown;
+  if (unit == "s") v.shown_in = "h";
   if (bounds.least > 0) v.low = bounds.least;
   if (std::isfinite(bounds.most)) v.high = bounds.most;
   out.values.push_back(v);
@@ -116,9 +115,9 @@ Result design(const LifeSettings& s) {
                                   s.muscles > 1 ? "s" : "", a.name, s.muscles > 1 ? "" : "s",
                                   100 * contraction)};
   add(out, "cycles", "cycles of one muscle", "1", one, "mean until it fails");
-  add(out, "time_h", "time of one muscle", "h", in_hours(time), "mean, as the robot is used");
-  add(out, "first_failure_h", "time to the first failure", "h",
-      in_hours({time.least / n, time.most / n}), fmt::format("mean, of {} muscles", s.muscles));
+  add(out, "time_s", "time of one muscle", "s", time, "mean, as the robot is used");
+  add(out, "first_failure_s", "time to the first failure", "s", {time.least / n, time.most / n},
+      fmt::format("mean, of {} muscles", s.muscles));
   if (const auto duration = values.given(s.duration)) {
     const LifeBounds b = actuator::survival(one, n, *duration * frequency * duty);
     const bool known = one.least > 0 || std::isfinite(one.most);

@@ -43,7 +43,7 @@ TEST(DesignLife, MoreMusclesAndMoreContractionNeverLastLonger) {
   }
   for (const int muscles : {1, 2, 8, 48}) {
     s.muscles = muscles;
-    const double first = design(s).of("first_failure_h").high;
+    const double first = design(s).of("first_failure_s").high;
     EXPECT_LE(first, before);
     before = first;
   }
