@@ -260,17 +260,18 @@ Table delivered_table(const ValveChoice& choice, double frequency) {
   return out;
 }
 
-// Returns the choices whose delays are known and that do not miss anything; all with known delays,
-// if there are none.
+// Returns up to six choices whose delays are known, with the best verdict that any of them has;
+// first the valve that is given.
 std::vector<const ValveChoice*> with_pulses(const std::vector<ValveChoice>& choices) {
   std::vector<const ValveChoice*> out;
   for (const ValveChoice& c : choices)
-    if (c.opening && c.closing && (c.verdict != Verdict::misses || c.name == given_name))
-      out.push_back(&c);
-  if (out.empty())
-    for (const ValveChoice& c : choices)
-      if (c.opening && c.closing) out.push_back(&c);
-  if (out.size() > 6) out.resize(6);
+    if (c.name == given_name && c.opening && c.closing) out.push_back(&c);
+  std::optional<Verdict> best;
+  for (const ValveChoice& c : choices) {
+    if (c.name == given_name || !c.opening || !c.closing) continue;
+    if (!best) best = std::max(c.verdict, Verdict::may_suffice);
+    if (c.verdict <= *best && out.size() < 6) out.push_back(&c);
+  }
   return out;
 }
 
@@ -285,8 +286,13 @@ report::Plot delivered_plot(const std::vector<const ValveChoice*>& choices, doub
     report::Curve curve{.label = c->name};
     for (const DeliveredShare& s : delivered_shares(*c, frequency)) {
       curve.xs.push_back(s.duty);
-      curve.ys.push_back(0.5 * (s.delivered.low + s.delivered.high));
+      curve.ys.push_back(s.delivered.low);
+      curve.ys_high.push_back(s.delivered.high);
     }
+    if (curve.ys == curve.ys_high)
+      curve.ys_high.clear();
+    else
+      curve.style = report::Curve::Style::band;
     out.curves.push_back(std::move(curve));
   }
   return out;
