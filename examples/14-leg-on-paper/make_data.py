@@ -27,10 +27,10 @@ def force(rest_length: float, length: float, pressure: float) -> float:
 
 
 rows = []
-for rest_length in (0.12, 0.16, 0.2, 0.25, 0.3):
+for rest_length in (0.13, 0.18, 0.24, 0.3):
     strength = 1 + NOISE.gauss(0, 0.02)
     for share in (0, 0.04, 0.08, 0.12, 0.16, 0.20):
-        for pressure in range(0, 601, 50):
+        for pressure in range(0, 601, 100):
             length = rest_length * (1 - share)
             newtons = max(strength * force(rest_length, length, pressure), 0) + NOISE.gauss(0, 2)
             rows.append([1e3 * rest_length, f"{1e3 * length:.1f}", pressure, f"{newtons:.1f}"])
