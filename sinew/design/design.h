@@ -45,11 +45,11 @@ struct Table {
 };
 
 struct Result {
-  std::string method;  // "joint"
-  std::string title;   // one line: what was designed
-  std::vector<Value> values;
-  std::vector<Table> tables;
-  std::vector<report::Plot> plots;
+  std::string method;                 // "joint"
+  std::string title;                  // one line: what was designed
+  std::vector<Value> values;          // numbers of the design
+  std::vector<Table> tables;          // lists, such as all feasible designs
+  std::vector<report::Plot> plots;    // drawn on the page
   std::vector<std::string> notes;     // assumptions, and reasons of a choice
   std::vector<std::string> warnings;  // for stderr
   std::vector<std::string> unseen;    // what the result does not show
