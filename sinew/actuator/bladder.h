@@ -16,8 +16,8 @@
 // does not extrapolate.
 //
 // Bladder::Fit, thesis 7.3: a bladder that is wider than the mesh at its widest and longer than at
-// its longest is never stretched. The air presses it against the mesh, which takes all stress, so
-// that F = 0 and the threshold of the effectiveness is 0. A liner is such a bladder of a film, such
+// its longest is never stretched. The air presses it against the mesh, which takes all stress:
+// F = 0 and the threshold of the effectiveness is 0. A liner is such a bladder of a film, such
 // as mylar, whose wall takes no room: h_w = 0 (body.h). Folds, and a friction between film and mesh
 // other than that of loss.h, are not modelled.
 #pragma once

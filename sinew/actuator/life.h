@@ -10,8 +10,9 @@
 //   D      failures to be expected of one actuator [-]     S  probability that none of k fails [-]
 //
 // N_ref, m and f are known as ranges, and so is every result: a lower bound that is unknown is 0,
-// an upper one infinite, and neither takes part in a number. Sources: the contraction as the cause
-// of fatigue and the numbers are the file's; no m is published for such muscles.
+// an upper one infinite, and neither takes part in a number. The numbers are those of the
+// actuator's file; no m is published for such muscles. docs/theory/actuator.md has the evidence.
+//
 // Assumed: cycles of different sizes do harm independently of their order (Palmgren and Miner);
 // actuators fail independently of each other and of their age (the rate is constant), so that wear,
 // after which many fail together, is not modelled. No law of the pressure is published: a higher
