@@ -96,7 +96,8 @@ void bind_ensemble(py::module_& m) {
           "why that run has no figures, which are NaN then. A figure that a run lacks is NaN, "
           "too.\n"
           "`progress` is called with the numbers of completed and of all runs; an exception that\n"
-          "it raises ends the ensemble, as Ctrl-C does. Raises ValueError for another shape.")
+          "it raises ends the ensemble, as Ctrl-C does. Raises ValueError for another shape, and\n"
+          "InputError for a figure that does not exist and resembles one that does.")
       .def(
           "__call__",
           [](const HeldEnsemble& self, const py::object& values, int threads) -> py::object {

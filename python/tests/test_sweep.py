@@ -89,6 +89,9 @@ class Ensemble(unittest.TestCase):
             sinew.Ensemble(AIR, ["joint.hip.angle_gian"], [ERROR])
         with self.assertRaisesRegex(sinew.InputError, "a number of the experiment"):
             sinew.Ensemble(AIR, ["title"], [ERROR])
+        misspelt = sinew.Ensemble(AIR, [GAIN], ["joints.hip.trakcing_rms_rad"])
+        with self.assertRaisesRegex(sinew.InputError, 'try "joints.hip.tracking_rms_rad"'):
+            misspelt([[4e-4]])
         ensemble = sinew.Ensemble(AIR, [GAIN], [ERROR])
         with self.assertRaisesRegex(ValueError, "one row for each run"):
             ensemble([1e-4, 2e-4])

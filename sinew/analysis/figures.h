@@ -17,6 +17,9 @@
 
 namespace sinew::analysis {
 
+// Value of a figure that exists but does not apply to the run.
+inline constexpr double no_figure = std::numeric_limits<double>::quiet_NaN();
+
 struct Figures {
   const Machine& machine;
   const Record& record;  // the log and the series that derive() computes from it
@@ -45,11 +48,9 @@ struct Figures {
   template <class Statistic>
   void add(const std::string& key, Statistic statistic, const Column& column,
            const Column& seconds) {
-    if (wants(key) && !column.empty()) summary.add(key, statistic(column, seconds));
+    if (wants(key)) summary.add(key, column.empty() ? no_figure : statistic(column, seconds));
   }
 };
-
-inline constexpr double no_figure = std::numeric_limits<double>::quiet_NaN();
 
 // Steps and distance of the sequence, by which amounts are divided to give rates.
 struct Extent {

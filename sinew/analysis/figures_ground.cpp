@@ -158,7 +158,7 @@ void add_stick(Figures& f) {
     if (f.record.stance()[i] > 0 && std::isfinite(c.slides[i]))
       sum += c.slides[i] * f.record.stance()[i];
   const double steps = extent_of(f).steps;
-  if (steps > 0) f.summary.add("foot.slip_per_step_m", sum / steps);
+  f.summary.add("foot.slip_per_step_m", steps > 0 ? sum / steps : no_figure);
 }
 
 // Returns the end of the hold after the kick, or of the kick itself at the sequence's end.
@@ -184,9 +184,8 @@ void add_kick(Figures& f) {
     f.summary.add("foot.extension_time_s",
                   ten_to_ninety(moves, wanted[end - 1], f.record.period()));
   const Rise r = rise(moves, f.record.period());
-  if (!r.found) return;
-  f.summary.add("foot.extension_time_to_peak_s", r.partial);
-  f.summary.add("foot.extension_whole_time_s", r.whole);
+  f.summary.add("foot.extension_time_to_peak_s", r.found ? r.partial : no_figure);
+  f.summary.add("foot.extension_whole_time_s", r.found ? r.whole : no_figure);
 }
 
 struct Components {
@@ -221,8 +220,8 @@ void add_rates(Figures& f, double amount, const std::string& per_step,
                const std::string& per_metre) {
   if (!f.wants(per_step) && !f.wants(per_metre)) return;
   const Extent extent = extent_of(f);
-  if (extent.steps > 0) f.summary.add(per_step, amount / extent.steps);
-  if (extent.distance > 0) f.summary.add(per_metre, amount / extent.distance);
+  f.summary.add(per_step, extent.steps > 0 ? amount / extent.steps : no_figure);
+  f.summary.add(per_metre, extent.distance > 0 ? amount / extent.distance : no_figure);
 }
 
 void add_run(Figures& f) {

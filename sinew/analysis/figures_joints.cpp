@@ -43,8 +43,9 @@ void add_angles(Figures& f, const std::string& joint, const std::string& key) {
   f.add(key + "max_angle_true_rad", largest, real, sequence);
 
   const std::size_t row = relaxed_row(f);
-  if (row >= f.record.rows()) return;
-  const auto at_row = [&](const Column& values, const Column&) { return values[row]; };
+  const auto at_row = [&](const Column& values, const Column&) {
+    return row < f.record.rows() ? values[row] : no_figure;
+  };
   f.add(key + "relaxed_angle_rad", at_row, angle, sequence);
   f.add(key + "relaxed_angle_true_rad", at_row, real, sequence);
 }
@@ -157,10 +158,8 @@ void add_turns(Figures& f, const std::string& phase_key, int phase, const std::s
   if (error.empty()) return;
   const Turns turns = turns_of(f.record, phase, error);
   f.summary.add(key + "turning_points", turns.sum);
-  if (turns.times > 1) {
-    f.summary.add(key + "fewest_turning_points", turns.fewest);
-    f.summary.add(key + "most_turning_points", turns.most);
-  }
+  f.summary.add(key + "fewest_turning_points", turns.times > 1 ? turns.fewest : no_figure);
+  f.summary.add(key + "most_turning_points", turns.times > 1 ? turns.most : no_figure);
   f.summary.add(key + "oscillation_amplitude_rad",
                 turns.half_swings > 0 ? turns.amplitudes / turns.half_swings : 0);
   f.summary.add(key + "largest_oscillation_amplitude_rad", turns.largest);

@@ -69,9 +69,11 @@ void add_endurance(Figures& f) {
   if (line.empty() || !f.record.has_sequence()) return;
   std::size_t row = f.record.first_row();
   while (row < f.record.end_row() && line[row] > 0.99 * line.front()) ++row;
-  const char* bound = line[row] > 0.99 * line.front() ? "_at_least" : "";
+  const bool to_the_end = line[row] > 0.99 * line.front();
   const auto add = [&](const char* of, double value, const char* unit) {
-    f.summary.add(fmt::format("supply.full_{}{}{}", of, bound, unit), value);
+    f.summary.add(fmt::format("supply.full_{}{}", of, unit), to_the_end ? no_figure : value);
+    f.summary.add(fmt::format("supply.full_{}_at_least{}", of, unit),
+                  to_the_end ? value : no_figure);
   };
   add("time", f.record.time(row) - f.record.sequence_start(), "_s");
 
@@ -105,7 +107,7 @@ void add_supervision(Figures& f) {
   const auto counted = [&](const std::string& key, const std::string& topic) {
     if (!f.wants(key)) return;
     const Column column = f.record.column(topic);
-    if (!column.empty() && column.back() > 0) f.summary.add(key, column.back());
+    f.summary.add(key, !column.empty() && column.back() > 0 ? column.back() : no_figure);
   };
   for (const robot::Sensor& sensor : f.machine.robot.sensors) {
     const std::string from = "/sensor/" + sensor.name, to = "sensors." + sensor.name;
@@ -117,8 +119,9 @@ void add_supervision(Figures& f) {
   if (!f.wants("low_level.tripped_time_s")) return;
   const Column tripped = f.record.column("/low_level/tripped");
   const auto first = std::ranges::find(tripped, 1.0) - tripped.begin();
-  if (first < std::ssize(tripped))
-    f.summary.add("low_level.tripped_time_s", f.record.time(static_cast<std::size_t>(first)));
+  f.summary.add("low_level.tripped_time_s", first < std::ssize(tripped)
+                                                ? f.record.time(static_cast<std::size_t>(first))
+                                                : no_figure);
 }
 
 // Adds the air that entered and left the machine, the change of the air that it contains, and the

@@ -100,11 +100,4 @@ Condition parse_condition(std::string_view text, std::string_view setting) {
   return out;
 }
 
-std::string nearest_key(std::string_view key, const analysis::Summary& summary) {
-  if (summary.find(key)) return "";
-  std::vector<std::string_view> keys;
-  for (const analysis::Entry& entry : summary.entries()) keys.push_back(entry.key);
-  return std::string(config::closest(key, keys));
-}
-
 }  // namespace sinew::tune

@@ -56,8 +56,4 @@ struct Condition {
 // Parses "key < value unit"; also <=, >, >=. Throws config::Error that begins with `setting`.
 Condition parse_condition(std::string_view text, std::string_view setting = "where");
 
-// Returns the most similar key of the summary; empty if the summary has the key itself or none is
-// similar.
-std::string nearest_key(std::string_view key, const analysis::Summary&);
-
 }  // namespace sinew::tune

@@ -49,17 +49,6 @@ namespace {
 
 // --- one point ---
 
-// Throws if a key that the first run's summary lacks is similar to one that it has, and therefore
-// probably misspelt. Others may not apply to this run.
-void check_keys(const Sweep& s, const analysis::Summary& summary) {
-  for (const std::string& key : keys(s)) {
-    const std::string near = nearest_key(key, summary);
-    if (!near.empty())
-      config::fail({key, 0, 0}, "", "no such key in the summary", "a key of summary.json",
-                   config::in_quotes(near));
-  }
-}
-
 struct Point {
   std::string experiment;
   std::vector<std::string> sets, cells;
@@ -132,7 +121,7 @@ void add_report(const Sweep& s, const RunResult& result, std::vector<std::string
 }
 
 Row single(const Sweep& s, std::size_t index, Point point, const RunResult& result, bool first) {
-  if (first && result.ok()) check_keys(s, result.summary);
+  if (first && result.ok()) analysis::refuse_misspelt(keys(s), result.summary);
   add_report(s, result, point.cells);
   Notes notes = notes_of(result, keys(s));
   point.cells.push_back(status_with(notes, result.status));
@@ -157,7 +146,7 @@ Row searched(const Sweep& s, const Points& points, std::size_t index, bool first
     std::vector<std::string> sets = point.sets;
     sets.push_back(search.axis.set(search.axis.at(number)));
     last = points.runs().run_once(point.experiment, sets);
-    if (++runs == 1 && first && last.ok()) check_keys(s, last.summary);
+    if (++runs == 1 && first && last.ok()) analysis::refuse_misspelt(keys(s), last.summary);
     const bool all = last.ok() && std::ranges::all_of(search.where, [&](const Condition& c) {
                        return c.holds(last.summary);
                      });

@@ -52,14 +52,34 @@ std::vector<MachineFault> begun_by(std::vector<MachineFault> faults, double last
 }
 
 void Summary::add(std::string key, double value) {
-  if (!std::isfinite(value)) return;
-  entries_.push_back({std::move(key), value == 0 ? 0.0 : value});  // no -0
+  if (std::isfinite(value))
+    entries_.push_back({std::move(key), value == 0 ? 0.0 : value});  // no -0
+  else
+    without_value_.push_back(std::move(key));
 }
 
 const double* Summary::find(std::string_view key) const {
   for (const Entry& e : entries_)
     if (e.key == key) return &e.value;
   return nullptr;
+}
+
+bool Summary::exists(std::string_view key) const {
+  return find(key) != nullptr || std::ranges::find(without_value_, key) != without_value_.end();
+}
+
+std::string nearest_key(std::string_view key, const Summary& summary) {
+  if (summary.exists(key)) return "";
+  std::vector<std::string_view> keys;
+  for (const Entry& entry : summary.entries()) keys.push_back(entry.key);
+  return std::string(config::closest(key, keys));
+}
+
+void refuse_misspelt(const std::vector<std::string>& keys, const Summary& summary) {
+  for (const std::string& key : keys)
+    if (const std::string near = nearest_key(key, summary); !near.empty())
+      config::fail({key, 0, 0}, "", "no such key in the summary", "a key of summary.json",
+                   config::in_quotes(near));
 }
 
 namespace {

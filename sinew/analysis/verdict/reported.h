@@ -117,14 +117,24 @@ class Summary {
   std::vector<std::string> warnings;  // events that no figure shows, from the log alone
   std::vector<MachineFault> faults;   // those that began before the log's end
 
-  // Appends a figure; one that is not finite is left out.
+  // Appends a figure; one that is not finite is left out: it does not apply to this run.
   void add(std::string key, double value);
   const double* find(std::string_view key) const;  // nullptr: absent
+  // Returns whether the figure exists for such runs, even if it does not apply to this one.
+  bool exists(std::string_view key) const;
   const std::vector<Entry>& entries() const { return entries_; }
 
  private:
   std::vector<Entry> entries_;
+  std::vector<std::string> without_value_;  // keys of figures that do not apply
 };
+
+// Returns the most similar key of the summary; empty if the key exists or none is similar.
+std::string nearest_key(std::string_view key, const Summary&);
+
+// Throws config::Error for a key that does not exist but is similar to one of the summary, and
+// therefore probably misspelt.
+void refuse_misspelt(const std::vector<std::string>& keys, const Summary&);
 
 // Numbers that depend on the computer of the run, and warnings of events that are not in the log.
 struct Host {

@@ -242,7 +242,24 @@ analysis::Summary Ensemble::figures_of(const Member& member, const Outcome& outc
     if (!selection_ || selection_->topics() != selection.topics())
       selection_ = std::make_shared<const analysis::Selection>(std::move(selection));
   }
-  return analysis::summarize(table, machine);
+  analysis::Summary whole = analysis::summarize(table, machine);
+  check_figures(whole);
+  return whole;
+}
+
+// Checks the wanted figures with those of a whole run.
+void Ensemble::check_figures(const analysis::Summary& whole) const {
+  try {
+    analysis::refuse_misspelt(figures_, whole);
+  } catch (const config::Error&) {
+    const std::lock_guard lock(mutex_);
+    misspelt_ = std::current_exception();
+  }
+}
+
+std::exception_ptr Ensemble::misspelt() const {
+  const std::lock_guard lock(mutex_);
+  return misspelt_;
 }
 
 RunResult Ensemble::result(std::unique_ptr<Member> member, const Outcome& outcome) const {
@@ -271,7 +288,7 @@ std::vector<std::string> Ensemble::run(std::span<const double> values, std::span
   std::vector<std::string> status(rows, "not run");
   std::atomic<std::size_t> taken{0};
   const auto next = [&]() -> std::optional<std::size_t> {
-    if (options.stop && options.stop->load()) return {};
+    if ((options.stop && options.stop->load()) || misspelt()) return {};
     const std::size_t row = taken++;
     if (row >= rows) return {};
     return row;
@@ -297,6 +314,7 @@ std::vector<std::string> Ensemble::run(std::span<const double> values, std::span
       threads,
       [&](std::size_t) { run_many({.next = next, .begin = begin, .done = done, .lanes = lanes}); },
       nullptr, static_cast<int>(threads));
+  if (const std::exception_ptr wrong = misspelt()) std::rethrow_exception(wrong);
   return status;
 }
 

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -65,7 +66,7 @@ class Ensemble {
   // the run has no such figure) to the row of `figures`. Returns the status of each run: "ok", or
   // why it has no figures; "not run" after a stop. The results do not depend on threads, lanes and
   // other rows. Several threads may call it. Throws std::invalid_argument if the sizes do not
-  // match.
+  // match, and config::Error for a figure that is probably misspelt, which the first runs show.
   std::vector<std::string> run(std::span<const double> values, std::span<double> figures,
                                const Options& options) const;
   std::vector<std::string> run(std::span<const double> values, std::span<double> figures) const {
@@ -113,6 +114,8 @@ class Ensemble {
   std::unique_ptr<Member> spare() const;
   bool reads() const;
   analysis::Summary figures_of(const Member& member, const Outcome& outcome, bool& no_air) const;
+  void check_figures(const analysis::Summary& whole) const;
+  std::exception_ptr misspelt() const;
   bool is_compared(std::span<const double> values) const;
   void compare(const Member& set, const Member& read, std::span<const double> values) const;
   Start start(const std::vector<std::string>& values) const;
@@ -126,8 +129,9 @@ class Ensemble {
 
   // Found by the first runs.
   mutable std::mutex mutex_;
-  mutable std::vector<bool> compared_;  // parameters that were read and set with equal results
-  mutable bool reads_ = false;          // they differed: the file is read for every run
+  mutable std::vector<bool> compared_;   // parameters that were read and set with equal results
+  mutable bool reads_ = false;           // they differed: the file is read for every run
+  mutable std::exception_ptr misspelt_;  // refusal of a figure
   mutable std::shared_ptr<const analysis::Selection> selection_;
   mutable std::vector<std::unique_ptr<Member>> spare_;
 };

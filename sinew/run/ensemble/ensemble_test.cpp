@@ -224,6 +224,25 @@ TEST(Ensemble, RefusesAParameterThatIsNoNumber) {
   EXPECT_THROW((void)ensemble.run(std::vector<double>{1, 2}, room), std::invalid_argument);
 }
 
+// A figure that does not exist is misspelt if one is similar; one that does not apply to a run is
+// not a number, however similar others are.
+TEST(Ensemble, RefusesAMisspeltFigure) {
+  const std::vector<double> values = {1, 1};
+  std::vector<double> found(2);
+  const Ensemble wrong(leg, {}, {"seed"}, {"joints.hip.trakcing_rms_rad"});
+  for (int again = 0; again < 2; ++again)
+    EXPECT_NE(message([&] {
+                (void)wrong.run(values, found);
+              }).find("try \"joints.hip.tracking_rms_rad\""),
+              std::string::npos);
+
+  const char* key = "phases.swing.joints.hip.most_turning_points";
+  const Ensemble once(leg, {}, {"sequence.repeat"}, {key});
+  EXPECT_EQ(once.run(std::vector<double>{1, 2}, found), std::vector<std::string>(2, "ok"));
+  EXPECT_TRUE(std::isnan(found[0]));
+  EXPECT_FALSE(std::isnan(found[1]));
+}
+
 // Whether a muscle took air is a remark on every run, also if no channel of the figures shows it.
 TEST(Ensemble, SeesThatNoMuscleTookAir) {
   Ensembles ensembles({"duration_s"});
