@@ -86,6 +86,9 @@ py::object parsed(const std::string& json);
 // Returns the experiment given as an Experiment or a path. Throws TypeError for anything else, and
 // config::Error.
 ExperimentPointer experiment_of(const py::object& meant, const py::object& sets);
+// Returns the same for work that reads the file again. Throws std::invalid_argument for an
+// experiment that was pickled.
+ExperimentPointer from_file(const py::object& meant, const py::object& sets);
 
 // Runs `work` on a thread of its own, without Python's lock, and rethrows its exception. Meanwhile
 // calls `poll` several times a second, with Python's lock. If Ctrl-C, another signal handler of

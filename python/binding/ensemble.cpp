@@ -22,10 +22,7 @@ std::unique_ptr<HeldEnsemble> make(const py::object& experiment,
                                    const std::vector<std::string>& parameters,
                                    const std::vector<std::string>& figures, const py::object& sets,
                                    bool allow_unreachable) {
-  const ExperimentPointer e = experiment_of(experiment, sets);
-  if (!e->text.empty())
-    throw std::invalid_argument(
-        "experiment: found one that was pickled; expected one that was read from its file");
+  const ExperimentPointer e = from_file(experiment, sets);
   return std::unique_ptr<HeldEnsemble>(new HeldEnsemble{
       {e->path, e->sets, parameters, figures, allow_unreachable}, parameters, figures});
 }

@@ -8,6 +8,7 @@
 
 #include "python/binding/numbers.h"
 #include "python/binding/simulation.h"
+#include "sinew/run/ensemble/episodes.h"
 #include "sinew/run/simulation/episode.h"
 
 namespace sinew::python {
@@ -100,35 +101,50 @@ py::tuple step(HeldEpisode& episode, const py::object& given) {
   return py::make_tuple(observed, measured, episode.ended());
 }
 
-// Steps the episodes that are not skipped; a failed one does not stop the others.
-py::tuple step_each(const std::vector<std::shared_ptr<HeldEpisode>>& episodes,
-                    const py::object& given, const py::array_t<bool>& skipped) {
+using HeldEpisodes = Guarded<run::Episodes>;
+
+std::shared_ptr<HeldEpisodes> make_episodes(std::shared_ptr<Episode> definition,
+                                            const py::object& experiment,
+                                            const std::vector<std::string>& parameters,
+                                            std::size_t count, int threads) {
+  if (threads < 0)
+    throw std::invalid_argument(fmt::format("threads: found {}; expected 0 or more", threads));
+  const ExperimentPointer e = from_file(experiment, py::none());
+  auto ensemble = std::make_shared<const run::Ensemble>(e->path, e->sets, parameters,
+                                                        std::vector<std::string>{}, true);
+  return std::make_shared<HeldEpisodes>("episodes", std::move(definition), std::move(ensemble),
+                                        count, threads);
+}
+
+// Begins the episodes of these places, each with its seed and its row of values.
+void begin_each(HeldEpisodes& episodes, const std::vector<std::size_t>& places,
+                const std::vector<int>& seeds, const py::object& given) {
+  const HeldEpisodes::Use use(episodes);
+  const Numbers values = numbers(given, "values");
+  const std::size_t width = use->parameters();
+  check_shape(values, {places.size(), width}, "values");
+  for (std::size_t k = 0; k < places.size(); ++k)
+    use->begin(places[k], seeds.at(k), {values.data() + k * width, width});
+}
+
+py::tuple step_each(HeldEpisodes& episodes, const py::object& given) {
+  const HeldEpisodes::Use use(episodes);
   const Numbers actions = numbers(given, "actions");
-  if (episodes.empty()) throw std::invalid_argument("episodes: found none; expected one at least");
-  const Episode& definition = episodes[0]->definition();
-  for (const auto& episode : episodes)
-    if (!episode || &episode->definition() != &definition)
-      throw std::invalid_argument("episodes: found several definitions; expected one");
-  check_shape(actions, {episodes.size(), definition.actions()}, "actions");
-  check_shape(skipped, {episodes.size()}, "skipped");
-  for (std::size_t i = 0; i < episodes.size() * definition.actions(); ++i)
-    check_action(actions.data()[i], i);
-  Numbers observed({episodes.size(), definition.observations()}),
-      measured({episodes.size(), definition.measures()});
-  py::array_t<bool> ended(length(episodes.size())), failed(length(episodes.size()));
-  for (std::size_t i = 0; i < episodes.size(); ++i) {
-    double* observations = observed.mutable_data() + i * definition.observations();
-    double* measures = measured.mutable_data() + i * definition.measures();
-    bool fails = false;
-    try {
-      if (!skipped.data()[i])
-        episodes[i]->step(actions.data() + i * definition.actions(), observations, measures);
-    } catch (const RunError&) {
-      fails = true;
-    }
-    if (fails || skipped.data()[i]) episodes[i]->observe(observations, measures);
-    failed.mutable_data()[i] = fails;
-    ended.mutable_data()[i] = episodes[i]->ended();
+  const Episode& definition = use->definition();
+  const std::size_t count = use->count();
+  check_shape(actions, {count, definition.actions()}, "actions");
+  for (std::size_t i = 0; i < count * definition.actions(); ++i) check_action(actions.data()[i], i);
+  Numbers observed({count, definition.observations()}), measured({count, definition.measures()});
+  py::array_t<bool> ended(length(count)), failed(length(count));
+  const run::Episodes::Results results{
+      .observed = {observed.mutable_data(), count * definition.observations()},
+      .measured = {measured.mutable_data(), count * definition.measures()},
+      .ended = {ended.mutable_data(), count},
+      .failed = {failed.mutable_data(), count}};
+  {
+    const std::span<const double> from(actions.data(), count * definition.actions());
+    const py::gil_scoped_release others;
+    use->step(from, results);
   }
   return py::make_tuple(observed, measured, ended, failed);
 }
@@ -147,7 +163,17 @@ void bind_episode(py::module_& m) {
       .def_property_readonly("simulation", &HeldEpisode::simulation)
       .def("observe", &observe)
       .def("step", &step, py::arg("action"));
-  m.def("step_episodes", &step_each, py::arg("episodes"), py::arg("actions"), py::arg("skipped"));
+  py::class_<HeldEpisodes, std::shared_ptr<HeldEpisodes>>(m, "Episodes")
+      .def(py::init(&make_episodes), py::arg("definition").none(false), py::arg("experiment"),
+           py::arg("parameters"), py::arg("count"), py::arg("threads"))
+      .def("begin", &begin_each, py::arg("places"), py::arg("seeds"), py::arg("values"))
+      .def("step", &step_each, py::arg("actions"))
+      .def(
+          "cause",
+          [](HeldEpisodes& episodes, std::size_t place) {
+            return HeldEpisodes::Use(episodes)->cause(place);
+          },
+          py::arg("place"));
 }
 
 }  // namespace sinew::python

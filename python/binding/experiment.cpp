@@ -203,6 +203,14 @@ ExperimentPointer experiment_of(const py::object& meant, const py::object& sets)
   return sets.is_none() ? held : varied(held, sets);
 }
 
+ExperimentPointer from_file(const py::object& meant, const py::object& sets) {
+  ExperimentPointer e = experiment_of(meant, sets);
+  if (!e->text.empty())
+    throw std::invalid_argument(
+        "experiment: found one that was pickled; expected one that was read from its file");
+  return e;
+}
+
 void bind_experiment(py::module_& m) {
   py::class_<HeldExperiment, std::shared_ptr<HeldExperiment>>(
       m, "Experiment",

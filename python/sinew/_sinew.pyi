@@ -154,9 +154,22 @@ class Episode:
     def observe(self) -> Tuple[_Array, _Array]: ...
     def step(self, action: numpy.typing.ArrayLike) -> Tuple[_Array, _Array, bool]: ...
 
-def step_episodes(
-    episodes: Sequence[Episode], actions: numpy.typing.ArrayLike, skipped: numpy.typing.ArrayLike
-) -> Tuple[_Array, _Array, _Flags, _Flags]: ...
+class Episodes:
+    def __init__(
+        self,
+        definition: EpisodeDefinition,
+        experiment: Experiment,
+        parameters: Sequence[str],
+        count: int,
+        threads: int,
+    ) -> None: ...
+    def begin(
+        self, places: Sequence[int], seeds: Sequence[int], values: numpy.typing.ArrayLike
+    ) -> None: ...
+    def step(
+        self, actions: numpy.typing.ArrayLike
+    ) -> Tuple[_Array, _Array, _Flags, _Flags]: ...
+    def cause(self, place: int) -> str: ...
 
 class RecordedChannel:
     @property

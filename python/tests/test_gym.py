@@ -13,6 +13,7 @@ import numpy
 
 import sinew
 import sinew.gym
+import sinew.gym.env
 from common import WALK, Refusals
 
 
@@ -292,6 +293,67 @@ class Vector(unittest.TestCase):
         self.assertEqual(list(reward), [0.0, 0.0, 0.0])
         self.assertFalse(truncated.any())
         self.assertFalse(numpy.array_equal(seen, rows[-1]))
+
+    def test_each_has_physics_of_its_own(self) -> None:
+        task = dataclasses.replace(sinew.gym.task("walk"), sets={"trolley.track_length": 20.0})
+        keys = ["link.femur.mass", "joint.hip.angle_gain", "sequence.repeat"]
+        num, steps = 9, 250
+
+        def values(seed: int) -> Any:  # repeat: episodes end at different times
+            u = numpy.random.default_rng(seed).uniform(size=2)
+            return [0.2 + 0.2 * u[0], 2e-4 + 4e-4 * u[1], 1 + seed % 2]
+
+        actions = numpy.random.default_rng(4).uniform(-1, 1, (steps, num, 4))
+        kept: List[Any] = []
+        for threads in (1, 2, 5):
+            many = sinew.gym.VectorEnv(
+                task, num, parameters=keys, values=values, threads=threads
+            )
+            seen, _ = many.reset(seed=3)
+            all_seen, ends, values_of = [seen], [], [many.values.copy()]
+            for k in range(steps):
+                seen, _, terminated, truncated, _ = many.step(actions[k])
+                all_seen.append(seen)
+                ends.append(terminated | truncated)
+                values_of.append(many.values.copy())
+            kept.append(tuple(numpy.array(rows) for rows in (all_seen, ends, values_of)))
+        for other in kept[1:]:
+            for a, b in zip(kept[0], other):
+                self.assertEqual(a.tobytes(), b.tobytes())
+        rows, over, drawn = kept[0]
+        self.assertGreater(len(set(over.argmax(axis=0))), 1)
+        for i in range(num):
+            seeds = sinew.gym.env._Seeds()
+            begins = [0] + [k + 1 for k in range(steps - 1) if over[k, i]]
+            for begin, end in zip(begins, begins[1:] + [steps]):
+                seed = seeds.next(3 + i if begin == 0 else None)
+                numbers: Any = values(seed)
+                self.assertEqual(drawn[begin + (begin > 0), i].tolist(), numbers)
+                sets = {**task.sets, **dict(zip(keys, numbers)), keys[2]: int(numbers[2])}
+                alone = sinew.gym.Env(dataclasses.replace(task, sets=sets))
+                seen, _ = alone.reset(seed=seed)
+                first = begin + (begin > 0)  # row of the reset
+                self.assertEqual(seen.tobytes(), rows[first, i].tobytes())
+                for k in range(first, end):
+                    seen = alone.step(actions[k, i])[0]
+                    self.assertEqual(seen.tobytes(), rows[k + 1, i].tobytes())
+
+    def test_values_are_set_at_a_reset(self) -> None:
+        many = sinew.gym.VectorEnv("walk", 3, parameters=["link.femur.mass"])
+        with self.assertRaisesRegex(ValueError, "values: found none; expected those of link.femur"):
+            many.reset(seed=1)
+        with self.assertRaisesRegex(ValueError, r"found shape \(2,\); expected \(3, 1\)"):
+            many.reset(seed=1, options={"values": [0.3, 0.2]})
+        with self.assertRaisesRegex(sinew.InputError, "link.femur.mass"):
+            many.reset(seed=1, options={"values": [-1.0]})
+        many.reset(seed=1, options={"values": [[0.3], [0.2], [0.3]]})
+        seen, _ = many.reset(seed=[5, 5, 5])
+        self.assertEqual(seen[0].tobytes(), seen[2].tobytes())
+        self.assertNotEqual(seen[0].tobytes(), seen[1].tobytes())
+        with self.assertRaisesRegex(sinew.InputError, "link.femur.maas"):
+            sinew.gym.VectorEnv("walk", 2, parameters=["link.femur.maas"], values=[0.3])
+        with self.assertRaisesRegex(ValueError, "threads: found -1"):
+            sinew.gym.VectorEnv("walk", 2, threads=-1)
 
 
 class Wrong(Refusals):

@@ -52,6 +52,14 @@ class Batch {
     visit([&](auto& legs) { legs.replace(k, setup); });
   }
 
+  // Park a machine, and continue it, as ChainLanes does.
+  void park(int k) noexcept {
+    visit([&](auto& legs) { legs.park(k); });
+  }
+  void resume(int k) noexcept {
+    visit([&](auto& legs) { legs.resume(k); });
+  }
+
   static constexpr double finished = Legs<2>::finished;
   // Runs all machines as ChainLanes::go does, and returns its result.
   template <class Loop>

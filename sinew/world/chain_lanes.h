@@ -54,6 +54,11 @@ class ChainLanes {
   template <class Loop>
   int run(const Loop& loop) noexcept;
   void park(int k) noexcept { parked_[static_cast<std::size_t>(k)] = true; }
+  // Continues a parked machine in the next run(), which calls its loop first.
+  void resume(int k) noexcept {
+    parked_[static_cast<std::size_t>(k)] = false;
+    until_[static_cast<std::size_t>(k)] = -finished;
+  }
 
   // Replaces machine k by another one at its start. Throws as the constructor does.
   void replace(int k, const Setup& setup);

@@ -1,7 +1,7 @@
 """Single and vectorized environments."""
 
 import copy
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Optional, Sequence, Tuple, Union
 
 import numpy
 import numpy.typing
@@ -214,21 +214,42 @@ class Env(_Base):  # type: ignore[misc]
         self._episode = None
 
 
+Values = Union[numpy.typing.ArrayLike, Callable[[int], numpy.typing.ArrayLike]]
+
+
 class VectorEnv:
-    """Several parallel environments of a task, which step with one call.
+    """Several parallel environments of a task, which step with one call, in lanes and on all cores.
 
     Observations, rewards and flags have a row for each. An environment whose episode has ended
     begins the next one in the next step, like Gymnasium's vector environments; its action is then
     ignored, and its reward is 0. info["clipped"] marks numbers of actions that were clipped to -1
     and 1, info["missing"] channels without a value; each is left out if nothing is marked.
+
+    parameters: keys of numbers in which the environments differ, such as "link.femur.mass", as of
+        sinew.Ensemble.
+    values: their values in SI: a row for each environment, one row for all, or a function of an
+        episode's seed that returns its row.
+    threads: number of threads; 0: one per core. The results do not depend on it.
+
+    Each environment has the bits of an Env whose task sets these values. The values of the present
+    episodes are in `values`.
     """
 
-    def __init__(self, task: Union[str, Task] = "walk", num_envs: int = 16) -> None:
+    def __init__(
+        self,
+        task: Union[str, Task] = "walk",
+        num_envs: int = 16,
+        *,
+        parameters: Sequence[str] = (),
+        values: Optional[Values] = None,
+        threads: int = 0,
+    ) -> None:
         if num_envs < 1:
             raise ValueError(f"num_envs: found {num_envs}; expected 1 or more")
         self._shared = _Shared(task)
         self.task = self._shared.task
         self.num_envs = num_envs
+        self.parameters = tuple(parameters)
         self.single_action_space = self._shared.action_space
         self.single_observation_space = self._shared.observation_space
         self.action_space = spaces.box(
@@ -239,9 +260,38 @@ class VectorEnv:
             numpy.tile(self.single_observation_space.low, (num_envs, 1)),
             numpy.tile(self.single_observation_space.high, (num_envs, 1)),
         )
+        self.values = numpy.full((num_envs, len(self.parameters)), numpy.nan)
+        self._values: Optional[Callable[[int], numpy.typing.ArrayLike]] = None
+        self._has_values = not self.parameters
+        if values is not None:
+            self._set_values(values)
         self._seeds = [_Seeds() for _ in range(num_envs)]
-        self._episodes: List[_sinew.Episode] = []
+        self._episodes = _sinew.Episodes(
+            self._shared.definition, self._shared.experiment, self.parameters, num_envs, threads
+        )
+        self._under_way = False
         self._over = numpy.zeros(num_envs, bool)
+
+    def _set_values(self, values: Values) -> None:
+        if callable(values):
+            self._values = values
+        else:
+            rows = numpy.asarray(values, float)
+            if rows.shape not in (self.values.shape, self.values.shape[1:]):
+                raise ValueError(
+                    f"values: found shape {rows.shape}; expected {self.values.shape}, or "
+                    f"{self.values.shape[1:]} for all"
+                )
+            self._values = None
+            self.values[:] = rows
+        self._has_values = True
+
+    def _begin(self, places: Sequence[int], seeds: Sequence[int]) -> None:
+        """Begin the episodes of these environments with the next step."""
+        if self._values is not None:
+            for i, seed in zip(places, seeds):
+                self.values[i] = self._values(seed)
+        self._episodes.begin(places, seeds, self.values[places])
 
     def reset(
         self,
@@ -251,9 +301,15 @@ class VectorEnv:
     ) -> Tuple["numpy.typing.NDArray[numpy.float64]", Info]:
         """Restart all environments. `seed`: seed of the first, increased by 1 for each next; or a list.
 
-        Raises ValueError for options: a task has none.
+        `options`: {"values": other values of the parameters from now on}. Raises ValueError for
+        others, InputError for values that the experiment refuses.
         """
+        options = dict(options or {})
+        if self.parameters and "values" in options:
+            self._set_values(options.pop("values"))
         _refuse(options)
+        if not self._has_values:
+            raise ValueError(f"values: found none; expected those of {', '.join(self.parameters)}")
         seeds: "Sequence[Optional[int]]"
         if seed is None:
             seeds = [None] * self.num_envs
@@ -264,24 +320,26 @@ class VectorEnv:
         if len(seeds) != self.num_envs:
             raise ValueError(f"seed: found {len(seeds)}; expected one, or {self.num_envs}")
         numbers = [s.next(one) for s, one in zip(self._seeds, seeds)]
-        self._episodes = [self._shared.begin(n) for n in numbers]
+        self._under_way = False
+        self._begin(range(self.num_envs), numbers)
+        seen, self._measured, _, failed = self._episodes.step(numpy.zeros(self.action_space.shape))
+        if failed.any():
+            raise _sinew.RunError(self._episodes.cause(int(failed.argmax())))
+        self._under_way = True
         self._over[:] = False
-        observed = [e.observe() for e in self._episodes]
-        self._measured = numpy.array([measured for _, measured in observed])
         info: Info = {"seed": numpy.array(numbers)}
-        return _without_gaps(numpy.array([seen for seen, _ in observed]), info), info
+        return _without_gaps(seen, info), info
 
     def step(self, actions: numpy.typing.ArrayLike) -> Tuple[Any, Any, Any, Any, Info]:
         """Advance all by a period. Returns observations, rewards, terminated, truncated, info."""
-        if not self._episodes:
+        if not self._under_way:
             raise RuntimeError("env: found no episodes; expected reset() before")
         skipped = self._over
-        for i in numpy.flatnonzero(skipped):
-            self._episodes[i] = self._shared.begin(self._seeds[i].next(None))
+        if skipped.any():
+            again = [int(i) for i in numpy.flatnonzero(skipped)]
+            self._begin(again, [self._seeds[i].next(None) for i in again])
         before = self._measured
-        seen, self._measured, ended, failed = _sinew.step_episodes(
-            self._episodes, actions, skipped
-        )
+        seen, self._measured, ended, failed = self._episodes.step(actions)
         reward, period = self.task.reward, self.task.period
         rewards = numpy.array(
             [
@@ -301,4 +359,4 @@ class VectorEnv:
 
     def close(self) -> None:
         """End all episodes."""
-        self._episodes = []
+        self._under_way = False

@@ -223,6 +223,12 @@ std::unique_ptr<Ensemble::Member> Ensemble::member(const std::vector<std::string
   return member(numbers, values);
 }
 
+std::unique_ptr<Ensemble::Member> Ensemble::member(std::span<const double> values) const {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < values.size(); ++i) texts.push_back(text_of(values[i], units()[i]));
+  return member(values, texts);
+}
+
 // Returns the figures of a run: the wanted ones from the topics that it recorded, or all of them.
 // If these topics are too few, it is run again, and later runs record more.
 analysis::Summary Ensemble::figures_of(const Member& member, const Outcome& outcome,
@@ -269,10 +275,14 @@ RunResult Ensemble::result(std::unique_ptr<Member> member, const Outcome& outcom
     out.summary = figures_of(*member, outcome, out.no_air);
     compare_with_reported(member->machine, out);
   }
-  if (!member->is_set) return out;
+  keep(std::move(member));
+  return out;
+}
+
+void Ensemble::keep(std::unique_ptr<Member> member) const {
+  if (!member->is_set) return;
   const std::lock_guard lock(mutex_);
   spare_.push_back(std::move(member));
-  return out;
 }
 
 std::vector<std::string> Ensemble::run(std::span<const double> values, std::span<double> figures,
@@ -294,11 +304,8 @@ std::vector<std::string> Ensemble::run(std::span<const double> values, std::span
     return row;
   };
   const auto begin = [&](std::size_t row) {
-    const std::span<const double> its = values.subspan(row * width, width);
-    std::vector<std::string> texts;
-    for (std::size_t i = 0; i < width; ++i) texts.push_back(text_of(its[i], units()[i]));
     // The ensemble outlives its runs, so that they need not own a share.
-    return BegunRun{{std::shared_ptr<void>(), this}, member(its, texts)};
+    return BegunRun{{std::shared_ptr<void>(), this}, member(values.subspan(row * width, width))};
   };
   const auto done = [&](std::size_t row, const RunResult& result) {
     status[row] = result.status;

@@ -89,11 +89,18 @@ class Ensemble {
            std::vector<std::string> parameters, const std::vector<std::string>& values,
            std::vector<std::string> figures, bool allow_unreachable);
 
+  // Returns the experiment as it was read first.
+  const experiment::Experiment& example() const { return start_.experiment; }
+
   // Returns the parameters that do not exist or are not numbers.
   std::vector<std::string> unknown() const;
 
   // Returns the run with these values, texts with units. Throws config::Error if it is refused.
   std::unique_ptr<Member> member(const std::vector<std::string>& values) const;
+  // Returns the run with these values in SI.
+  std::unique_ptr<Member> member(std::span<const double> values) const;
+  // Keeps the memory of a member that is no longer needed for another one.
+  void keep(std::unique_ptr<Member> member) const;
   // Returns the result of a run, with all figures or with the wanted ones, and keeps the member's
   // memory for another one.
   RunResult result(std::unique_ptr<Member> member, const Outcome& outcome) const;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "sinew/units/math.h"
 
@@ -33,8 +34,14 @@ void check_above_zero(double value, std::string_view what, const std::string& wh
 
 }  // namespace
 
-Episode::Episode(const Task& task, Simulation& example)
-    : begin_(ticks(task.begin)),
+Episode::Episode(const Task& task, Simulation& example) : Episode(task, std::as_const(example)) {
+  record_plan(example);
+  if (const std::string cause = example.cause(); !cause.empty()) throw std::runtime_error(cause);
+}
+
+Episode::Episode(const Task& task, const Simulation& example)
+    : task_(task),
+      begin_(ticks(task.begin)),
       step_(ticks(task.period)),
       control_(ticks(example.experiment().plan.high_level_period)) {
   check_times(example, task);
@@ -51,7 +58,22 @@ Episode::Episode(const Task& task, Simulation& example)
   if (channels_.size() > most_channels)
     throw std::invalid_argument(
         fmt::format("channels: found {}; expected {} at most", channels_.size(), most_channels));
-  record_plan(example);
+}
+
+Episode Episode::of(const Simulation& other) const {
+  const experiment::Experiment& e = other.experiment();
+  Episode out(task_, other);
+  if (actions_.empty()) return out;
+  const bool follows_readings = std::ranges::any_of(e.plan.phases, [](const gait::Phase& phase) {
+    return !phase.until.measure.empty() || phase.ground_force.given();
+  });
+  if (follows_readings) {
+    Simulation alone(e);
+    out.record_plan(alone);
+  } else {
+    out.plan_alone(e);
+  }
+  return out;
 }
 
 void Episode::check_times(const Simulation& s, const Task& task) const {
@@ -90,20 +112,37 @@ void Episode::record_plan(Simulation& s) {
     s.advance_to(t + 1);
     for (const Action& action : actions_) plan_.push_back(s.value_of(action.setting));
   }
-  if (const std::string cause = s.cause(); !cause.empty()) throw std::runtime_error(cause);
+}
+
+// Records the same of a plan that does not depend on readings, without a machine.
+void Episode::plan_alone(const experiment::Experiment& e) {
+  Controllers controllers(e, nullptr);
+  const MachineState state = controllers.boards().state();
+  const Tick period = controllers.scan().period, last = experiment::last_tick(e);
+  Tick updated = -period;
+  for (Tick t = begin_; t < last; t += control_) {
+    while (updated + period <= t) (void)controllers.gait()->update(state, updated += period);
+    for (const Action& action : actions_)
+      plan_.push_back(gait::value_of(controllers.settings()[action.setting],
+                                     controllers.gait()->desired().front()));
+  }
 }
 
 void Episode::step(Simulation& s, std::span<const double> action) const {
   for (Tick passed = 0; passed < step_ && !s.ended(); passed += control_) {
-    const auto row = static_cast<std::size_t>((s.tick() - begin_) / control_);
-    if (row < rows())
-      for (std::size_t i = 0; i < actions_.size(); ++i) {
-        const double a = std::clamp(action[i], -1.0, 1.0);
-        const double wanted = (plan_[row * actions_.size() + i] + actions_[i].offset * a) *
-                              units::exp(actions_[i].logarithm * a);
-        s.change(actions_[i].setting, std::clamp(wanted, 0.0, gait::Setting::most));
-      }
+    act(s, action);
     s.advance_to(s.tick() + control_);
+  }
+}
+
+void Episode::act(Simulation& s, std::span<const double> action) const {
+  const auto row = static_cast<std::size_t>((s.tick() - begin_) / control_);
+  if (row >= rows()) return;
+  for (std::size_t i = 0; i < actions_.size(); ++i) {
+    const double a = std::clamp(action[i], -1.0, 1.0);
+    const double wanted = (plan_[row * actions_.size() + i] + actions_[i].offset * a) *
+                          units::exp(actions_[i].logarithm * a);
+    s.change(actions_[i].setting, std::clamp(wanted, 0.0, gait::Setting::most));
   }
 }
 

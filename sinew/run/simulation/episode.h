@@ -58,6 +58,11 @@ class Episode {
   // multiples of the gait controller's period; std::runtime_error if the plan itself fails.
   Episode(const Task& task, Simulation& example);
 
+  // Returns the same episode of an experiment that differs in numbers: with the plan of its own,
+  // from a simulation at its start, which is left unchanged. If that plan fails, its settings stay
+  // from there on. Throws std::invalid_argument as the constructor does.
+  Episode of(const Simulation& other) const;
+
   // Return the number of values in an action, in an observation, and of the measures.
   std::size_t actions() const { return actions_.size(); }
   std::size_t observations() const { return scalings_.size(); }
@@ -70,6 +75,14 @@ class Episode {
   // Runs a step, or to the end of the plan. `action` has a finite number for each action, which is
   // limited to -1 ... 1.
   void step(Simulation& s, std::span<const double> action) const;
+
+  // The parts of these, for a loop of your own: the first step's start, and a step's length; a
+  // step's part, at whose start act() sets the settings; whether observe() reads true values.
+  signals::Tick first() const noexcept { return begin_; }
+  signals::Tick length() const noexcept { return step_; }
+  signals::Tick part() const noexcept { return control_; }
+  void act(Simulation& s, std::span<const double> action) const;
+  bool observes_truths(const Simulation& s) const { return s.is_true(channels_); }
 
   // Writes a number for each observation and a number for each measure.
   void observe(Simulation& s, std::span<double> observed,
@@ -89,13 +102,18 @@ class Episode {
   };
   static constexpr std::size_t most_channels = 1024;
 
+  // Takes the task; the plan is missing.
+  Episode(const Task& task, const Simulation& example);
+
   std::size_t rows() const noexcept {
     return actions_.empty() ? 1 : plan_.size() / actions_.size();
   }
   void measure(const Simulation& s, const std::string& name);
   void check_times(const Simulation& s, const Task& task) const;
   void record_plan(Simulation& s);
+  void plan_alone(const experiment::Experiment& e);
 
+  Task task_;
   signals::Tick begin_, step_, control_;  // control_: the gait controller's period
   std::vector<Action> actions_;
   std::vector<Scaling> scalings_;

@@ -1,14 +1,13 @@
 #include "sinew/run/simulation/lanes.h"
 
 #include <algorithm>
-#include <bit>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "sinew/run/setup/machine_setup.h"
 #include "sinew/run/simulation/clock.h"
+#include "sinew/run/simulation/node_bounds.h"
 #include "sinew/run/simulation/recorded_run.h"
 #include "sinew/run/simulation/simulation.h"
 #include "sinew/world/batch.h"
@@ -19,40 +18,6 @@ using experiment::Experiment;
 using signals::Tick;
 
 namespace {
-
-// Computes the time up to which a machine's nodes may be committed before a tick is visited. It is
-// the time to which the tick's first access to the machine would commit them. A later bound would
-// extrapolate readings from another node than run() does.
-class Bounds {
- public:
-  explicit Bounds(const signals::Scan& scan) : period_(scan.period), lag_(scan.period, none) {
-    for (const signals::Conversion& c : scan.conversions)
-      if (c.read < scan.period)
-        lag_[c.read] = std::max(lag_[c.read], static_cast<Tick>(c.read - c.start));
-  }
-
-  // `drives`: whether a valve is driven at t, before the conversions. Ticks must not decrease.
-  double before(Tick t, bool samples, bool drives) noexcept {
-    while (t - start_ >= period_) start_ += period_;
-    const Tick of_period = t - start_, lag = lag_[static_cast<std::size_t>(of_period)];
-    if (lag != none && !(drives && of_period != 0)) return seconds(t - lag);
-    if (of_period == 0 && !samples) return nothing;  // usually the high level's commands only
-    return before(seconds(t));                       // an edge at t: all nodes before it
-  }
-
-  static constexpr double nothing = -std::numeric_limits<double>::max();
-
- private:
-  static constexpr Tick none = -1;
-  // Returns the next smaller number; of 0 or a negative number, `nothing`.
-  static double before(double x) {
-    return x > 0 ? std::bit_cast<double>(std::bit_cast<std::int64_t>(x) - 1) : nothing;
-  }
-  static double seconds(Tick t) { return static_cast<double>(t) * signals::tick_seconds; }
-
-  Tick period_, start_ = 0;  // start of the present period
-  std::vector<Tick> lag_;    // for the conversions read at a tick of the period
-};
 
 RunOptions options_of(const Lanes& lanes, const Experiment& e) {
   return {.recorded = lanes.recorded, .topics = lanes.topics ? lanes.topics(e) : nullptr};
@@ -91,7 +56,7 @@ class Lane {
  private:
   Simulation simulation_;
   RecordedRun run_;
-  Bounds bounds_;
+  NodeBounds bounds_;
   bool reached_ = false;
 };
 

@@ -132,10 +132,13 @@ double Simulation::read(std::size_t channel) noexcept {
   return value;
 }
 
-void Simulation::read(std::span<const std::size_t> channels, std::span<double> values) noexcept {
-  const bool is_simulated_only = std::ranges::any_of(
+bool Simulation::is_true(std::span<const std::size_t> channels) const noexcept {
+  return std::ranges::any_of(
       channels, [&](std::size_t c) { return columns_[column_of_[c].first].is_simulated_only(); });
-  controllers_.with_snapshot(time(), is_simulated_only ? &truths() : nullptr,
+}
+
+void Simulation::read(std::span<const std::size_t> channels, std::span<double> values) noexcept {
+  controllers_.with_snapshot(time(), is_true(channels) ? &truths() : nullptr,
                              [&](const Snapshot& now) {
                                for (std::size_t i = 0; i < channels.size(); ++i) {
                                  const auto [column, field] = column_of_[channels[i]];

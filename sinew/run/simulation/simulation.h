@@ -112,6 +112,8 @@ class Simulation {
   // `values` and `channels` must have the same size.
   void read(std::span<const std::size_t> channels, std::span<double> values) noexcept;
   std::size_t find(std::string_view channel) const;
+  // Returns whether one of these channels is a true value, to which the machine is advanced.
+  bool is_true(std::span<const std::size_t> channels) const noexcept;
 
   // Return the true values now. Requires a simulated body.
   const plant::Truths& truths() noexcept;
