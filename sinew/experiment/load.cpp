@@ -210,6 +210,14 @@ Numbers::Numbers(const Experiment& like, const std::vector<std::string>& keys)
 }
 
 bool Numbers::set(Experiment& e, std::span<const double> values) const {
+  return put(e, values, true);
+}
+
+bool Numbers::set_unbounded(Experiment& e, std::span<const double> values) const {
+  return put(e, values, false);
+}
+
+bool Numbers::put(Experiment& e, std::span<const double> values, bool bounded) const {
   std::uint64_t hash = 0;
   std::size_t number = 0;
   bool good = std::ranges::find(has_, false) == has_.end();
@@ -219,14 +227,14 @@ bool Numbers::set(Experiment& e, std::span<const double> values) const {
     ++number;
     if (key == absent) return;
     const double value = values[key];
-    good = good && units::is_within(f.field, value) &&
+    good = good && (!bounded || units::is_within(f.field, value)) &&
            (f.number || (f.whole && value == std::floor(value) &&
                          std::abs(value) <= std::numeric_limits<int>::max()));
     if (!good) return;
     if (f.number) *f.number = value;
     if (f.whole) *f.whole = static_cast<int>(value);
   });
-  visitor.on_conflict([&](const auto&...) { good = false; });
+  if (bounded) visitor.on_conflict([&](const auto&...) { good = false; });
   visit(visitor, "experiment", e);
   if (!good || hash != hash_) return false;
   copy_settle(e);

@@ -33,9 +33,14 @@ class Numbers {
   // appear or vanish with it; `e` has an unspecified value then. Contradictions among the values
   // are not found here.
   bool set(Experiment& e, std::span<const double> values) const;
+  // Sets them without regard to the bounds of their fields, for a search that has its own. Returns
+  // false if keys appear or vanish.
+  bool set_unbounded(Experiment& e, std::span<const double> values) const;
 
  private:
   static constexpr std::size_t absent = static_cast<std::size_t>(-1);
+
+  bool put(Experiment& e, std::span<const double> values, bool bounded) const;
 
   std::vector<bool> has_;  // for each key, and what follows
   std::vector<std::string> units_;

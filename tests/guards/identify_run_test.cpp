@@ -16,6 +16,7 @@
 #include <iostream>
 #include <random>
 
+#include "sinew/experiment/numbers.h"
 #include "sinew/host/side_by_side.h"
 #include "sinew/identify/contest/matrix.h"
 #include "sinew/identify/machine/machine_numbers.h"
@@ -46,9 +47,12 @@ struct Number {
   std::vector<double> width;  // of the intervals, relative to the bound's
 };
 
-double& at(Experiment& e, const std::string& key) {
-  const auto all = identify::machine_numbers(e);
-  return *std::ranges::find(all, key, &identify::MachineNumber::key)->value;
+double at(const Experiment& e, const std::string& key) {
+  return experiment::Numbers(e, {key}).values()[0];
+}
+
+void set(Experiment& e, const std::string& key, double value) {
+  EXPECT_TRUE(experiment::Numbers(e, {key}).set_unbounded(e, std::span(&value, 1))) << key;
 }
 
 // A machine whose numbers are up to 30 % off, and dead times up to the ends of their ticks: a run
@@ -61,14 +65,14 @@ Experiment drawn(const Experiment& shipped, const std::vector<Number>& numbers, 
   Experiment out = shipped;
   out.seed = trial + 1;
   for (const Number& n : numbers) {
-    double& value = at(out, n.key);
+    const double value = at(out, n.key);
     double low = value > 0 ? 0.7 * value : 0.5 * n.scale;
     double high = value > 0 ? 1.3 * value : 1.5 * n.scale;
     if (n.key.ends_with("ing_delay")) {
       low = std::floor(low / signals::tick_seconds) * signals::tick_seconds;
       high = std::ceil(high / signals::tick_seconds) * signals::tick_seconds;
     }
-    value = low + (high - low) * uniform();
+    set(out, n.key, low + (high - low) * uniform());
   }
   return out;
 }
@@ -82,13 +86,13 @@ std::vector<double> bound(Experiment truth, const identify::DrivenRun& run,
     noise.insert(noise.end(), c.value.size(), c.noise);
   std::vector<double> up(run.samples()), down(run.samples());
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    double& value = at(truth, numbers[i].key);
-    const double was = value, step = 1e-5 * numbers[i].scale;
-    value = was + step;
+    const std::string& key = numbers[i].key;
+    const double was = at(truth, key), step = 1e-5 * numbers[i].scale;
+    set(truth, key, was + step);
     EXPECT_TRUE(run.predict(truth, up, run.duration()));
-    value = was - step;
+    set(truth, key, was - step);
     EXPECT_TRUE(run.predict(truth, down, run.duration()));
-    value = was;
+    set(truth, key, was);
     for (std::size_t k = 0; k < run.samples(); ++k) j(k, i) = (up[k] - down[k]) / (2e-5 * noise[k]);
   }
   const identify::Matrix covariance =

@@ -82,20 +82,21 @@ std::vector<std::string> keys_of_group(std::string_view group, const Experiment&
 
 }  // namespace
 
-std::vector<MachineNumber> machine_numbers(Experiment& e) {
+std::vector<MachineNumber> machine_numbers(Experiment e) {
   std::vector<MachineNumber> out;
   units::EachField visitor([&](const units::VisitedField& f) {
     const bool of_list = f.path.find('[') != f.path.npos;
     if (f.number && !of_list)
       out.push_back(
-          {std::string(f.path), std::string(f.field.unit), f.field.min, f.field.max, f.number});
+          {std::string(f.path), std::string(f.field.unit), f.field.min, f.field.max, *f.number});
   });
   experiment::machine_fields(visitor, e);
   visitor.group({.name = "start"}, [&](auto& g) { experiment::fields(g, e.start); });
   return out;
 }
 
-std::vector<std::string> machine_keys(Experiment& e, const std::vector<std::string>& requested) {
+std::vector<std::string> machine_keys(const Experiment& e,
+                                      const std::vector<std::string>& requested) {
   const std::vector<MachineNumber> numbers = machine_numbers(e);
   std::vector<std::string> out;
   const auto add = [&](const std::string& key) {
@@ -122,7 +123,7 @@ std::vector<std::string> machine_keys(Experiment& e, const std::vector<std::stri
 
 double machine_scale(const Experiment& e, const MachineNumber& number) {
   if (number.unit == "rad") return 0.1;
-  const double value = std::abs(*number.value);
+  const double value = std::abs(number.value);
   if (value > 0 && std::isfinite(value)) return value;
   // A leak that empties ten cubic centimetres in about two minutes, as conductance or as area.
   constexpr double volume = 1e-5, time = 100;

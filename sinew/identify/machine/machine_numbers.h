@@ -2,8 +2,8 @@
 // keys, as the field tables name them: joint.hip.damping, valve.inlet.opening_delay,
 // muscle.knee_flexor.leak.area.
 //
-// A fit sets them in a copy of the description that it simulates. The parameters that it
-// searches by default are in groups, by what a run of a robot can show:
+// A fit sets them in a copy of the description that it simulates (experiment/numbers.h). The
+// parameters that it searches by default are in groups, by what a run of a robot can show:
 //
 //   friction    joint.<name>.dry_friction, of a driven joint; trolley.drag, cylinder.friction where
 //               these move
@@ -28,16 +28,16 @@ struct MachineNumber {
   std::string key;           // "joint.hip.damping"
   std::string unit;          // SI
   double low = 0, high = 0;  // range of its field
-  double* value = nullptr;   // address in the description
+  double value = 0;          // in the description
 };
 
-// Returns all parameters of the machine and of its start, with pointers into the description.
-std::vector<MachineNumber> machine_numbers(experiment::Experiment& experiment);
+// Returns all parameters of the machine and of its start.
+std::vector<MachineNumber> machine_numbers(experiment::Experiment experiment);
 
 // Returns the keys for the words in `requested`: keys, and groups for those of their keys that
 // the machine has. Empty: all groups. Each key is returned once. Throws config::Error for a
 // word that is neither, and for a group without a key.
-std::vector<std::string> machine_keys(experiment::Experiment& experiment,
+std::vector<std::string> machine_keys(const experiment::Experiment& experiment,
                                       const std::vector<std::string>& requested);
 
 // Returns the size of a significant change of the parameter, in its unit: a share of its value, or

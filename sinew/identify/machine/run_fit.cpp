@@ -23,17 +23,17 @@ using experiment::Experiment;
 
 constexpr double more_than_noise = 1.5;  // rms of the residuals, in units of the noise
 
-std::vector<Parameter> parameters_of(Experiment& e, const std::vector<std::string>& keys) {
+std::vector<Parameter> parameters_of(const Experiment& e, const std::vector<std::string>& keys) {
   const std::vector<MachineNumber> all = machine_numbers(e);
   std::vector<Parameter> out;
   for (const std::string& key : keys) {
     const MachineNumber& n = *std::ranges::find(all, key, &MachineNumber::key);
-    if (!std::isfinite(*n.value))
+    if (!std::isfinite(n.value))
       config::fail({"fit", 0, 0}, "", config::in_quotes(key) + ", of which its file has no value",
                    "a number with a value, from which the search begins", "to set one");
     out.push_back({.name = key,
                    .unit = n.unit,
-                   .start = *n.value,
+                   .start = n.value,
                    .low = n.low,
                    .high = n.high,
                    .scale = machine_scale(e, n)});

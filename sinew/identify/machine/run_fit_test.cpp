@@ -5,6 +5,8 @@
 #include <map>
 
 #include "sinew/config/write/writer.h"
+#include "sinew/experiment/numbers.h"
+#include "sinew/identify/machine/run_search.h"
 #include "sinew/identify/machine/test_runs.h"
 #include "sinew/json/json.h"
 
@@ -153,6 +155,23 @@ TEST(RunFit, APriorNarrowsWhatTheRunLeavesWide) {
   const Estimate narrow = estimate(fit_run(e, driven, options), "valve.inlet.opening_delay");
   EXPECT_GT(wide.high - wide.low, 30e-6);
   EXPECT_NEAR(narrow.high - narrow.low, 2 * 1.96 * 2e-6, 0.5e-6);
+}
+
+// A number that determines others does so in a fit, too: the plan takes a joint's gains from the
+// robot if its file does not give them.
+TEST(RunFit, SetsWhatFollowsFromANumber) {
+  const experiment::Experiment e = shipped("one-joint");
+  const DrivenRun driven(e, recorded(e), false);
+  const std::vector<Parameter> parameters = {{.name = "joint.lever.angle_gain"}};
+  const RunFitOptions options;
+  const RunResiduals residuals(e, driven, parameters, options, driven.duration());
+  experiment::Experiment read = shipped("one-joint", {"joint.lever.angle_gain=0.1 %/count"});
+  const std::vector<double> gain = {number_at(read, "joint.lever.angle_gain")};
+  EXPECT_TRUE(experiment::same_values(residuals.machine(gain), read));
+
+  experiment::Experiment machine = e;
+  set_number(machine, "joint.lever.angle_gain", gain[0]);
+  EXPECT_TRUE(experiment::same_values(machine, read));
 }
 
 TEST(RunFit, RefusesWhatItCannotFit) {

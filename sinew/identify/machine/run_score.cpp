@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/experiment/numbers.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/machine/machine_numbers.h"
 
@@ -120,7 +121,7 @@ Experiment scored_machine(Experiment machine, Experiment recorded,
                           std::vector<std::string>& differing) {
   // Not part of the body: conditions of a recording, its sensors and its controller.
   constexpr std::array apart = {"start.", "air.", "sensor.", "converter.", "low_level.", "thesis."};
-  const auto body = [&](Experiment& e) {
+  const auto body = [&](const Experiment& e) {
     std::vector<MachineNumber> out = machine_numbers(e);
     std::erase_if(out, [&](const MachineNumber& n) {
       return std::ranges::any_of(apart, [&](const char* a) { return n.key.starts_with(a); });
@@ -138,18 +139,20 @@ Experiment scored_machine(Experiment machine, Experiment recorded,
   lacking(theirs, ours, "without");
   lacking(ours, theirs, "with another part,");
   for (const MachineNumber& n : ours) {
-    const double there = *std::ranges::find(theirs, n.key, &MachineNumber::key)->value;
-    if (std::abs(*n.value - there) > 1e-9 * std::abs(there) &&
+    const double there = std::ranges::find(theirs, n.key, &MachineNumber::key)->value;
+    if (std::abs(n.value - there) > 1e-9 * std::abs(there) &&
         std::ranges::find(keys, n.key) == keys.end())
       differing.push_back(n.key);
   }
-  const std::vector<MachineNumber> found = machine_numbers(machine);
   recorded.robot = machine.robot;
   recorded.actuators = machine.actuators;
   recorded.valves = machine.valves;
-  for (const MachineNumber& n : machine_numbers(recorded))
-    if (std::ranges::find(keys, n.key) != keys.end())
-      *n.value = *std::ranges::find(found, n.key, &MachineNumber::key)->value;
+  const experiment::Numbers there(recorded, keys);
+  std::vector<std::string> common;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    if (there.has(i)) common.push_back(keys[i]);
+  const std::vector<double> found = experiment::Numbers(machine, common).values();
+  (void)experiment::Numbers(recorded, common).set_unbounded(recorded, found);
   return recorded;
 }
 

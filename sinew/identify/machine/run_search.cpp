@@ -15,10 +15,25 @@ namespace sinew::identify {
 
 using experiment::Experiment;
 
+namespace {
+
+std::vector<std::string> keys_of(std::span<const Parameter> parameters) {
+  std::vector<std::string> out;
+  for (const Parameter& one : parameters) out.push_back(one.name);
+  return out;
+}
+
+}  // namespace
+
 RunResiduals::RunResiduals(const Experiment& machine, const DrivenRun& run,
                            std::span<const Parameter> parameters, const RunFitOptions& options,
                            double until)
-    : machine_(machine), run_(run), parameters_(parameters), options_(options), until_(until) {
+    : machine_(machine),
+      numbers_(machine, keys_of(parameters)),
+      run_(run),
+      parameters_(parameters),
+      options_(options),
+      until_(until) {
   std::size_t sample = 0;
   for (const RunChannel& c : run.channels())
     for (const double value : c.value) {
@@ -34,16 +49,15 @@ RunResiduals::RunResiduals(const Experiment& machine, const DrivenRun& run,
 
 Experiment RunResiduals::machine(std::span<const double> p) const {
   Experiment out = machine_;
-  const std::vector<MachineNumber> all = machine_numbers(out);
-  for (std::size_t i = 0; i < p.size(); ++i)
-    *std::ranges::find(all, parameters_[i].name, &MachineNumber::key)->value = p[i];
+  (void)numbers_.set_unbounded(out, p);
   return out;
 }
 
 bool RunResiduals::operator()(std::span<const double> p, std::span<double> r) const {
   ++simulations_;
   std::vector<double> mean(run_.samples());
-  if (!run_.predict(machine(p), mean, until_)) return false;
+  Experiment tried = machine_;
+  if (!numbers_.set_unbounded(tried, p) || !run_.predict(tried, mean, until_)) return false;
   std::size_t k = 0;
   for (const std::size_t s : fitted_) r[k++] = (mean[s] - reading_[s]) / noise_[s];
   for (const RunPrior& prior : options_.priors) {

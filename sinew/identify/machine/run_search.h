@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "sinew/experiment/numbers.h"
 #include "sinew/identify/contest/least_squares.h"
 #include "sinew/identify/contest/matrix.h"
 #include "sinew/identify/machine/machine_numbers.h"
@@ -53,7 +54,7 @@ class RunResiduals {
   // Returns the number of simulations so far.
   int simulations() const { return simulations_; }
 
-  // Returns the description with these parameter values.
+  // Returns the description with these parameter values, of which the residuals were evaluated.
   experiment::Experiment machine(std::span<const double> p) const;
   // Writes (predicted - read)/noise. Returns false if the simulation fails.
   bool operator()(std::span<const double> p, std::span<double> r) const;
@@ -65,6 +66,7 @@ class RunResiduals {
 
  private:
   const experiment::Experiment& machine_;
+  experiment::Numbers numbers_;  // the parameters in it
   const DrivenRun& run_;
   std::span<const Parameter> parameters_;
   const RunFitOptions& options_;

@@ -2,14 +2,14 @@
 // changed parameters.
 #pragma once
 
-#include <algorithm>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/identify/machine/machine_numbers.h"
+#include "sinew/experiment/numbers.h"
 #include "sinew/run/simulation/run.h"
 #include "tests/places.h"
 
@@ -22,14 +22,14 @@ inline experiment::Experiment shipped(const std::string& name,
 
 inline signals::Table recorded(const experiment::Experiment& e) { return run::run(e).table; }
 
-inline double& number_at(experiment::Experiment& e, const std::string& key) {
-  for (const MachineNumber& n : machine_numbers(e))
-    if (n.key == key) return *n.value;
-  throw std::out_of_range(key);
+inline double number_at(const experiment::Experiment& e, const std::string& key) {
+  const experiment::Numbers numbers(e, {key});
+  if (!numbers.has(0)) throw std::out_of_range(key);
+  return numbers.values()[0];
 }
 
 inline void set_number(experiment::Experiment& e, const std::string& key, double value) {
-  number_at(e, key) = value;
+  if (!experiment::Numbers(e, {key}).set(e, std::span(&value, 1))) throw std::out_of_range(key);
 }
 
 template <class Call>
