@@ -19,7 +19,7 @@ namespace sinew::cli {
 namespace {
 
 constexpr Replaceable design_page{"page of `sinew design`", "such a page", "\"sinew.design_page/"};
-constexpr Replaceable robot_file{"robot file", "a robot file", "format=\"sinew.", ".toml"};
+constexpr Replaceable robot_file{"robot file", "a robot file", "format=\"sinew.robot/", ".toml"};
 
 // Holds the parts of a calculation's help that are not its settings; `out`: the file that it
 // writes, empty: none.
@@ -56,20 +56,35 @@ config::UnitsToShow design_units(const std::string& option) {
   return out;
 }
 
+// Returns the files that a calculation reads.
+template <class Settings>
+std::vector<std::string> inputs_of(const Settings& settings) {
+  std::vector<std::string> out;
+  if constexpr (requires { settings.actuator; }) out.push_back(settings.actuator);
+  if constexpr (requires { settings.base; }) out.push_back(settings.base);
+  return out;
+}
+
 template <class Settings>
 ExitCode run_design(const DesignOptions<Settings>& options) {
   if (!options.report.empty()) {
     report::require_page(options.report);
+    if (options.report == options.out)
+      config::fail({"--report", 0, 0}, "",
+                   config::in_quotes(options.report) + ", the name of --out too",
+                   "a name of its own, such as page.html");
     refuse_to_replace(options.report, options.force, design_page);
   }
-  if (!options.out.empty()) refuse_to_replace(options.out, options.force, robot_file);
+  if (!options.out.empty())
+    refuse_to_replace(options.out, options.force, robot_file, inputs_of(options.settings));
   const design::Result result = design::design(options.settings);
   const Messages messages(options.quiet);
   for (const std::string& warning : result.warnings) messages.warning(warning);
   if (result.refused.empty() && !options.out.empty()) {
     if (!result.file)
-      config::fail({"--out", 0, 0}, "", "no robot file to write",
-                   "--base, the robot file whose joint is designed, and the muscle as in its file");
+      config::fail(
+          {"--out", 0, 0}, "", "no robot file to write",
+          "--base, the robot file whose joint is designed, a cam, and the muscle as in its file");
     write_output(options.out, result.file(options.out), options.quiet);
   }
   if (!options.report.empty())

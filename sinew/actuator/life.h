@@ -49,6 +49,9 @@ inline Bounds cycles_of_life(const Life& life, double contraction,
   out.least = life.factor_least * life.cycles_over * (larger ? steep : flat);
   if (life.cycles_under > 0)
     out.most = life.factor_most * life.cycles_under * (larger ? flat : steep);
+  const bool scaled = std::abs(share - 1) > 1e-9;
+  if (scaled && !(life.exponent_most > 0))
+    (larger ? out.least : out.most) = larger ? 0 : Bounds().most;
   if (life.pressure > 0 && gauge_pressure > life.pressure) out.least = 0;
   if (life.pressure > 0 && gauge_pressure < life.pressure) out.most = Bounds().most;
   return out;

@@ -61,12 +61,17 @@ Weakest weakest_torque(const JointDesign& joint, const JointTask& task, double o
                        double atmosphere) {
   constexpr int steps = 8;  // the torque falls or rises over the angles, with one minimum at most
   Weakest out;
-  out.torque.value = std::numeric_limits<double>::infinity();
+  double low = std::numeric_limits<double>::infinity();
+  out.torque.value = low;
   for (int i = 0; i <= steps; ++i) {
     const double angle = task.angles * (static_cast<double>(i) / steps - 0.5);
     const Torque torque = torque_at(joint, task, angle, task.pressure, opposed, atmosphere);
+    // The interval that holds at every angle: unknown where it is unknown at one of them.
+    low = std::isnan(torque.low) || std::isnan(low) ? torque.low + low : std::min(low, torque.low);
     if (torque.value < out.torque.value) out = {torque, angle};
   }
+  out.torque.low = low;
+  if (std::isnan(low)) out.torque.high = low;
   return out;
 }
 

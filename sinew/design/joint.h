@@ -7,7 +7,7 @@
 //   T = n arm (F(L_f, p) - F(L_e, 0) - Q(L_f, p) - Q(L_e, 0))     torque that lifts [N m]
 //   A = 2 s/r (cam), 2 asin(s/r) (lever)      s = min(L_m - L_min, L_max - L_m)
 //   K = n r^2 (k_f + k_e)                                         stiffness at the middle [N m/rad]
-//   m = n (rho(p) V(L_f(A_t/2)) - rho(0) V(L_f(-A_t/2)) + (rho(p) - rho(0)) V_ext)
+//   m = rho(p) (n V(L_f(A_t/2)) + V_ext) - rho(0) (n V(L_f(-A_t/2)) + V_ext)
 //
 //   a    angle from the middle [rad]          n    muscles side by side [-]
 //   r    moment arm [m]                       L_m  length of both muscles at the middle [m]
@@ -42,7 +42,7 @@ struct JointTask {
   double angles = 0;           // range over which it is needed [rad]
   double motion = 0;           // range of motion without load [rad]
   double pressure = 0;         // highest gauge pressure [Pa]
-  double external_volume = 0;  // hose and fittings of one muscle [m3]
+  double external_volume = 0;  // hose and fittings of the muscles side by side [m3]
   Arm arm = Arm::cam;
 };
 
@@ -70,7 +70,8 @@ double arm_at(const JointDesign& joint, Arm arm, double angle);
 Torque torque_at(const JointDesign& joint, const JointTask& task, double angle, double p,
                  double opposed, double atmosphere);
 
-// Returns the weakest torque over the angles of the task, and its angle.
+// Returns the weakest torque over the angles of the task, and its angle; `low` is the lowest at any
+// of them, unknown if it is unknown at one.
 struct Weakest {
   Torque torque;
   double angle = 0;

@@ -21,6 +21,8 @@ namespace sinew::design {
 namespace {
 
 constexpr double unknown = Value::unknown;
+constexpr double max_lever_motion =
+    150 * units::degree;  // its arm is then cos 75 deg of its length
 
 // One feasible joint.
 struct Candidate {
@@ -38,6 +40,10 @@ JointTask task_of(const JointSettings& s, const config::SettingValues& values) {
   task.pressure = values.of(s.pressure);
   task.external_volume = values.of(s.external_volume);
   task.arm = s.arm == "lever" ? Arm::lever : Arm::cam;
+  if (task.arm == Arm::lever && task.motion > max_lever_motion)
+    config::refuse_setting("motion", config::in_quotes(s.motion.empty() ? s.angles : s.motion),
+                           "at most 150 deg with a lever, whose arm is zero at its dead points",
+                           "a cam");
   if (s.torque.empty() == s.load.empty())
     config::refuse_setting("torque", s.torque.empty() ? "nothing" : "a load with it",
                            "a torque, or a load at a lever", R"(torque="2 N m")");
@@ -53,10 +59,6 @@ JointTask task_of(const JointSettings& s, const config::SettingValues& values) {
   // A stroke that speeds up over one half and slows down over the other one: a = 4 A/t^2.
   if (const auto time = values.given(s.time))
     task.torque += mass * lever * lever * 4 * task.angles / (*time * *time);
-  if (task.arm == Arm::lever && task.motion >= 3)
-    config::refuse_setting("motion", config::in_quotes(s.motion),
-                           "less than 170 deg with a lever, whose arm is zero at its dead points",
-                           "a cam");
   return task;
 }
 
@@ -312,6 +314,28 @@ std::string refusal(const Nearest& nearest, const JointTask& task, const JointSe
       enough <= 100 ? fmt::format("most={:.0f}, ", enough) : "");
 }
 
+// Adds warnings of what the interval of the torque does not show, or of a torque within it.
+void add_doubts(Result& out, const Candidate& best, const JointTask& task) {
+  const actuator::Prediction& p = best.joint.actuator.prediction;
+  const double low = best.weakest.torque.low;
+  if (!(p.inside_95 > 0)) {
+    out.warnings.emplace_back(
+        "the actuator's file has no interval of its force: the margin has none");
+  } else if (std::isnan(low)) {
+    out.warnings.push_back(
+        fmt::format("the interval of the force is not known at all angles: the muscle was measured "
+                    "at {:.4g} to "
+                    "{:.4g} mm and up to {:.4g} bar gauge; the margin has none",
+                    1e3 * p.lengths.front(), 1e3 * p.lengths.back(), 1e-5 * p.highest));
+  } else if (low < task.torque) {
+    const double enough = low > 0 ? std::ceil(best.joint.count * task.torque / low) : 1e9;
+    out.warnings.push_back(
+        "the torque that is needed is within the 95 % interval of the weakest torque; " +
+        (enough <= 100 ? fmt::format("with {:.0f} side by side it would be below", enough)
+                       : std::string("no number of muscles of this law makes it sure")));
+  }
+}
+
 }  // namespace
 
 Result design(const JointSettings& s) {
@@ -338,7 +362,7 @@ Result design(const JointSettings& s) {
   add_values(out, best, task, air);
   out.tables = {table_of(all, task)};
   out.plots = {torque_plot(best, task, air.atmosphere), margin_plot(all, task)};
-  if (!s.base.empty() && s.rest_length.empty())
+  if (!s.base.empty() && s.rest_length.empty() && task.arm == Arm::cam)
     out.file = [s, best, volume = task.external_volume](const std::string& path) {
       return robot_file(s, best, volume, path);
     };
@@ -347,12 +371,7 @@ Result design(const JointSettings& s) {
         "the actuator's file of this muscle: sinew identify scale {} rest_length=\"{}\"",
         s.actuator, units::format_quantity(best.rest_length, "m", "mm")));
   out.notes.push_back("limited by: " + what_limits(best, task));
-  if (!std::isfinite(best.weakest.torque.low))
-    out.warnings.push_back("the actuator's file has no interval of its force: the margin has none");
-  else if (best.weakest.torque.low < task.torque)
-    out.warnings.push_back(
-        "the torque that is needed is within the 95 % interval of the weakest torque: one muscle "
-        "more, or a reading of the muscle, makes it sure");
+  add_doubts(out, best, task);
   return out;
 }
 

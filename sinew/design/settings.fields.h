@@ -230,6 +230,7 @@ void fields(Visitor& v, AirSettings& s) {
 // Cycles and time until a muscle of a robot fails.
 struct LifeSettings {
   std::string actuator, name, made;
+  bool silicone = false;
   std::string contraction, pressure, cycles, duty = "100 %", duration;
   int muscles = 1;
 };

@@ -23,6 +23,8 @@
 namespace sinew::thesis {
 namespace {
 
+constexpr const char* similar = "within a fifth: the text has no number for similar";
+
 using enum config::StatementClass;
 
 using report::Curve;
@@ -117,10 +119,10 @@ Exhibits chapter_1(const Sources& from) {
           predicted, "Where it pulls no more is similar to skeletal muscle", "similar",
           "relative length without force, less a frog's, of the range in which a frog's pulls",
           100 * (shortest / longest - 1.27 / 2.125) / (1 - 1.27 / 2.125), "%",
-          analysis::small(100)),
+          analysis::another(-20, 20), similar),
       text.number(predicted, "Force-length properties similar to skeletal muscle", "similar",
                   "largest distance from the nearest muscle at a length, of the greatest force",
-                  100 * farthest_from_muscles(mckibben), "%", analysis::small(100), "",
+                  100 * farthest_from_muscles(mckibben), "%", analysis::another(-20, 20), similar,
                   "a muscle's force is flat about its optimum, that of a braid falls from its "
                   "longest length on"),
       report::not_applicable("1.1", "Muscles of various animals (Klute et al. 1999)", "",

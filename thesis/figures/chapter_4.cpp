@@ -81,7 +81,10 @@ Exhibit section_4_2(const Sources& from) {
   const double off = design::motion_of(joint(from, 2, middle - 0.1), design::Arm::cam, stroke) +
                      design::motion_of(joint(from, 2, middle + 0.1), design::Arm::cam, stroke);
   const Section text("4.2");
-  const std::string at = "at 3.15 in and 100 psi, which the text does not state";
+  const std::string at =
+      "at the free length of 3.15 in and at 100 psi, which the text does not state and we chose; "
+      "it is "
+      "36 lbf with stretched threads";
   return {{.name = "4-2-choice",
            .title = "Choice of the cam and of the free length",
            .caption =
@@ -98,15 +101,15 @@ Exhibit section_4_2(const Sources& from) {
                       .x = {"gauge pressure", "psi"},
                       .y = {"torque", "lbf in", 0},
                       .curves = {torque_over_pressure(from, 1), torque_over_pressure(from, 2)}}}},
-          {text.number(predicted, "The largest force of an actuator", "15 lb", "force", force,
-                       "lbf", analysis::about(15), at),
-           text.number(predicted, "Two side by side pull with", "30 lb", "force", 2 * force, "lbf",
-                       analysis::about(30), at),
+          {text.number(put_in, "The largest force of an actuator", "15 lb", "force", force, "lbf",
+                       analysis::about(15), at),
+           text.number(by_construction, "Two side by side pull with", "30 lb", "force", 2 * force,
+                       "lbf", analysis::about(30), at),
            text.number(predicted, "The range of motion of an actuator", "1.4 in",
                        "L_max - b/sqrt 3", way, "in", analysis::about(1.4)),
            text.number(by_construction, "With a moment arm of 1 in this is", "1.4 rad, 80 deg",
                        "1.4 in/1 in", 1.4 / 1 / units::degree, "deg", analysis::about(80)),
-           text.number(predicted, "The joint's range of motion", "80 deg", "range of motion",
+           text.number(by_construction, "The joint's range of motion", "80 deg", "range of motion",
                        motion, "deg", analysis::about(80)),
            text.number(predicted, "The optimum free length, half the range", "3.15 in",
                        "(L_max + b/sqrt 3)/2", middle, "in", analysis::measured(3.15, 0.01)),
