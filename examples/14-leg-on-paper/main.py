@@ -20,7 +20,7 @@ SCALE = "actuator.festo20.effectiveness.scale"  # strength of the braid
 def joint(actuator: str, **task: str) -> design.Design:
     """Return the design of the lesson, of another muscle or for another task."""
     return design.joint(actuator=actuator, angles="60 deg", pressure="6 bar gauge", external_volume="5 cm3",
-                        moment_arm="12 mm", **task)  # fmt: skip
+                        moment_arm="8 mm", **task)  # fmt: skip
 
 
 def torque_of(strength: float) -> float:
@@ -35,7 +35,7 @@ with tempfile.TemporaryDirectory() as folder:
     for name in ("forces.csv", "robot.toml", "lift.toml", "hold.toml"):
         shutil.copy(HERE / name, name)
     identify.static_from("forces.csv", diameter="20 mm", name="festo20").write("muscle.toml")
-    identify.scale("muscle.toml", rest_length="160 mm").write("leg-muscle.toml")
+    identify.scale("muscle.toml", rest_length="140 mm").write("leg-muscle.toml")
 
     leg = joint("leg-muscle.toml", load="1 kg", lever="150 mm", time="0.3 s", base="robot.toml", joint_name="knee")
     leg.write("leg.toml")

@@ -29,13 +29,13 @@ sinew identify static forces.csv --diameter "20 mm" --name festo20 --no-report -
 
 # --- the joint: a third of 3 kg at 150 mm, 60 deg in 0.3 s, 6 bar ---
 sinew design joint --actuator muscle.toml --rest-length "140 mm:240 mm:20 mm" --load "1 kg" --lever "150 mm" \
-  --time "0.3 s" --angles "60 deg" --pressure "6 bar gauge" --external-volume "5 cm3"
-sinew identify scale muscle.toml --rest-length "160 mm" --quiet -o leg-muscle.toml
+  --time "0.3 s" --angles "60 deg" --pressure "6 bar gauge" --external-volume "5 cm3" --moment-arm "8 mm:16 mm:2 mm"
+sinew identify scale muscle.toml --rest-length "140 mm" --quiet -o leg-muscle.toml
 sinew design joint --actuator leg-muscle.toml --load "1 kg" --lever "150 mm" --time "0.3 s" --angles "60 deg" \
-  --pressure "6 bar gauge" --external-volume "5 cm3" --moment-arm "12 mm" --base robot.toml --joint knee -o leg.toml
+  --pressure "6 bar gauge" --external-volume "5 cm3" --moment-arm "8 mm" --base robot.toml --joint knee -o leg.toml
 
 # --- its valves ---
-sinew design valve --actuator leg-muscle.toml --length "160 mm" --contracted-length "147 mm" \
+sinew design valve --actuator leg-muscle.toml --length "139 mm" --contracted-length "131 mm" \
   --external-volume "5 cm3" --supply "6 bar gauge" --pressure "4 bar gauge" --fill-time "0.3 s" --vent-time "0.45 s" \
   --frequency "25 Hz"
 
@@ -43,7 +43,7 @@ sinew design valve --actuator leg-muscle.toml --length "160 mm" --contracted-len
 sinew run lift.toml -o lifted
 
 # --- its bottle, and how long its muscles last: six legs of three joints, one stroke per second ---
-sinew design air --use leg-muscle.toml --muscles 36 --cycles "1 Hz" --length "160 mm" --contraction "8 %" \
+sinew design air --use leg-muscle.toml --muscles 36 --cycles "1 Hz" --length "139 mm" --contraction "6 %" \
   --muscle-pressure "4 bar gauge" --line "6 bar gauge" --volume "1 L" --pressure "200 bar gauge"
-sinew design life --actuator leg-muscle.toml --made swaged --contraction "8 %" --cycles "1 Hz" --muscles 36 \
+sinew design life --actuator leg-muscle.toml --made swaged --contraction "6 %" --cycles "1 Hz" --muscles 36 \
   --duration "1000 h"

@@ -77,6 +77,7 @@ Weakest weakest_torque(const JointDesign& joint, const JointTask& task, double o
 
 Stroke stroke_of(const actuator::Actuator& a, double pressure, double atmosphere) {
   double low = actuator::shortest_length(a), high = a.long_end.length;
+  if (!a.prediction.lengths.empty()) high = std::min(high, a.prediction.lengths.back());
   const double longest = high;
   const auto pulls = [&](double length) {
     return actuator::clamped_tension(a, length, 0, pressure, atmosphere) > 0;

@@ -80,7 +80,8 @@ Weakest weakest_torque(const JointDesign& joint, const JointTask& task, double o
                        double atmosphere);
 
 // Returns the lengths between which the muscle works: fully contracted at the task's pressure, and
-// with stretched threads [m].
+// with stretched threads, or the longest that was measured, where the file has measured lengths
+// [m].
 struct Stroke {
   double shortest = 0, longest = 0;
 };
