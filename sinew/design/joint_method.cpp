@@ -323,7 +323,7 @@ void add_doubts(Result& out, const Candidate& best, const JointTask& task) {
         "the actuator's file has no interval of its force: the margin has none");
   } else if (std::isnan(low)) {
     out.warnings.push_back(
-        fmt::format("the interval of the force is not known at all angles: the muscle was measured "
+        fmt::format("the interval of the force is unknown at some angles: the muscle was measured "
                     "at {:.4g} to "
                     "{:.4g} mm and up to {:.4g} bar gauge; the margin has none",
                     1e3 * p.lengths.front(), 1e3 * p.lengths.back(), 1e-5 * p.highest));
@@ -332,7 +332,7 @@ void add_doubts(Result& out, const Candidate& best, const JointTask& task) {
     out.warnings.push_back(
         "the torque that is needed is within the 95 % interval of the weakest torque; " +
         (enough <= 100 ? fmt::format("with {:.0f} side by side it would be below", enough)
-                       : std::string("no number of muscles of this law makes it sure")));
+                       : std::string("more muscles of this law do not make it sure")));
   }
 }
 

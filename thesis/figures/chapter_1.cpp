@@ -23,7 +23,7 @@
 namespace sinew::thesis {
 namespace {
 
-constexpr const char* similar = "within a fifth: the text has no number for similar";
+constexpr const char* similar = "within a fifth: our band, since similar is not quantified";
 
 using enum config::StatementClass;
 
