@@ -28,6 +28,9 @@ constexpr std::string_view settings =
     "rest_length root sensors shard spread_times thousands time torque units values vary "
     "volume where ";
 
+// Settings whose names are also keys of units, as in "length=mm": with a value in quotes alone.
+constexpr std::string_view quoted_settings = " length ";
+
 // Settings that can be the subject of a problem: at the begin of a line, or behind a file's name.
 // A name with a line number is a key of that file.
 constexpr std::string_view subjects =
@@ -86,7 +89,8 @@ std::string option_at(std::string_view whole, std::size_t at, std::size_t& taken
   if (is_one_of(name, quantities) && rest.starts_with(": found ") &&
       begins_a_line(whole.substr(0, at)))
     return option_of(name);
-  if (!is_one_of(name, settings) || rest.size() < 2) return "";
+  const bool is_quoted = is_one_of(name, quoted_settings) && rest.starts_with("=\"");
+  if ((!is_one_of(name, settings) && !is_quoted) || rest.size() < 2) return "";
   const bool named = std::ranges::count(renamed, name, &Renamed::setting) > 0;
   const bool value = rest[0] == '=' && rest[1] != ' ' && rest[1] != '=';
   const bool begins_name = is_letter_of_a_name(rest[1]) || rest[1] == '/';  // as a channel

@@ -24,6 +24,8 @@ TEST(Settings, AreReportedAsOptions) {
             "try --full-scale \"10 V\", --unit gage=V or --drop-incomplete");
   EXPECT_EQ(as_options("try names.flexor_pressure=NAME (known=load)"),
             "try --map flexor_pressure=NAME (--known load)");
+  EXPECT_EQ(as_options("try length=\"200 mm\""), "try --length \"200 mm\"");
+  EXPECT_EQ(as_options("a unit of length; try length=mm"), "a unit of length; try length=mm");
   EXPECT_EQ(as_options("run/1: align=sequence: found a run without phases"),
             "run/1: --align sequence: found a run without phases");
 }
