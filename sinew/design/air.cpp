@@ -5,6 +5,9 @@
 #include <limits>
 
 #include "sinew/actuator/body.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/setting.h"
+#include "sinew/units/quantity.h"
 
 namespace sinew::design {
 
@@ -48,6 +51,22 @@ double air_of_filling(const actuator::Actuator& a, double external_volume, doubl
   const double full = vented * (1 + pressure / air.atmosphere);
   return full * actuator::volume(a, full_length) - vented * actuator::volume(a, vented_length) +
          (full - vented) * external_volume;
+}
+
+void require_length(const actuator::Actuator& a, double length, std::string_view setting,
+                    const std::string& written) {
+  constexpr double rounding = 1e-5;  // of the ends that a message shows
+  const double shortest = actuator::shortest_length(a), longest = a.long_end.length;
+  if (length >= shortest * (1 - rounding) && length <= longest * (1 + rounding)) return;
+  const auto shown = [](double x) { return units::format_quantity(x, "m", "mm"); };
+  std::string found = shown(length);
+  if (written == found)
+    found = config::in_quotes(written);
+  else if (!written.empty())
+    found = config::in_quotes(written) + ", which is " + found;
+  config::refuse_setting(
+      setting, found,
+      "a length that the muscle can have, " + shown(shortest) + " to " + shown(longest));
 }
 
 double quantile(std::vector<double> numbers, double share) {

@@ -19,6 +19,8 @@
 // only in part takes less.
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "sinew/actuator/actuator.h"
@@ -68,6 +70,11 @@ Lasting lasting(double air, const AirUse& use, double compressor_flow);
 // is gauge; `external_volume` is that of its hose and fittings [m3].
 double air_of_filling(const actuator::Actuator& a, double external_volume, double vented_length,
                       double full_length, double pressure, const gas::Air& air);
+
+// Throws config::Error about a setting if the muscle cannot have that length: below its shortest or
+// above its longest one. `written` is the setting's text, empty if the length is a default.
+void require_length(const actuator::Actuator& a, double length, std::string_view setting,
+                    const std::string& written);
 
 // Returns the value below which a share of the numbers is, linear between them; NaN without
 // numbers. NaN is left out.

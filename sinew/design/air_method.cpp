@@ -20,8 +20,13 @@ struct Supply {
   std::optional<AirStore> store;
   double store_mass = Value::unknown, compressor_mass = Value::unknown;  // [kg]
   double line = 0;                                                       // absolute [Pa]
+  std::optional<double> lowest;  // in the line, if it is given; absolute [Pa]
   std::vector<gas::CompressorPoint> compressor;
 };
+
+std::string gauge_bar(double pressure, const gas::Air& air) {
+  return fmt::format("{:.3g} bar gauge", (pressure - air.atmosphere) / 1e5);
+}
 
 gas::CompressorPoint point_of(const std::string& text, double atmosphere) {
   const std::vector<std::string> parts = config::at_commas(text);
@@ -48,13 +53,22 @@ gas::CompressorPoint point_of(const std::string& text, double atmosphere) {
 Supply supply_of(const AirSettings& s, const AirUses& uses) {
   const double atmosphere = uses.air.atmosphere;
   const config::SettingValues values(s, atmosphere);
-  const auto absolute = [&](const std::string& member) { return atmosphere + values.of(member); };
+  const auto absolute = [&](const char* name, const std::string& member) {
+    const double pressure = atmosphere + values.of(member);
+    if (!(pressure <= gas::highest_stored_pressure))
+      config::refuse_setting(name, config::in_quotes(member),
+                             "at most " +
+                                 units::format_quantity(gas::highest_stored_pressure - atmosphere,
+                                                        "Pa gauge", "bar gauge") +
+                                 ": compressibilities are known up to it");
+    return pressure;
+  };
   Supply out{.store_mass = values.given(s.mass).value_or(Value::unknown),
              .compressor_mass = values.given(s.compressor_mass).value_or(Value::unknown)};
   for (const std::string& point : s.compressor)
     out.compressor.push_back(point_of(point, atmosphere));
   std::ranges::sort(out.compressor, {}, &gas::CompressorPoint::gauge_pressure);
-  out.line = s.line.empty() ? uses.line : absolute(s.line);
+  out.line = s.line.empty() ? uses.line : absolute("line", s.line);
   if (!std::isfinite(out.line))
     config::fail({"line", 0, 0}, "", "nothing",
                  "the set pressure of the regulator, which a table does not have",
@@ -69,9 +83,17 @@ Supply supply_of(const AirSettings& s, const AirUses& uses) {
     config::fail({s.droop.empty() ? "droop" : "droop_flow", 0, 0}, "", "nothing",
                  "the fall of pressure and the flow at which it was measured",
                  R"(droop="1 bar diff" droop_flow="150 L/min")");
+  if (!s.lowest.empty()) {
+    constexpr double rounding = 1 + 1e-9;
+    out.lowest = absolute("lowest", s.lowest);
+    if (*out.lowest > out.line * rounding)
+      config::refuse_setting(
+          "lowest", config::in_quotes(s.lowest),
+          "at most the set pressure of the line, " + gauge_bar(out.line, uses.air));
+  }
   if (!s.volume.empty())
-    out.store = AirStore{values.of(s.volume), absolute(s.pressure),
-                         s.lowest.empty() ? out.line : std::min(out.line, absolute(s.lowest))};
+    out.store = AirStore{values.of(s.volume), absolute("pressure", s.pressure),
+                         std::min(out.line, out.lowest.value_or(out.line))};
   return out;
 }
 
@@ -216,9 +238,14 @@ double add_compressor(Result& out, const Supply& supply, const AirUse& use, cons
     const double share = std::min(use.per_second / flow, 1.0);
     add(out, {"compressor_power_W", "mean electrical power", share * at.power, "W", Value::unknown,
               Value::unknown, fmt::format("on for {:.3g} % of the time", 100 * share)});
-    add(out, {"isothermal_efficiency", "isothermal efficiency",
-              flow * gas::stream_exergy(air, supply.line) / at.power, "1", Value::unknown,
+    const double efficiency = flow * gas::stream_exergy(air, supply.line) / at.power;
+    add(out, {"isothermal_efficiency", "isothermal efficiency", efficiency, "1", Value::unknown,
               Value::unknown, "exergy of the compressed air, of the electrical energy"});
+    if (efficiency > 1)
+      out.warnings.push_back(fmt::format(
+          "the compressor has an isothermal efficiency of {:.4g}, and none is above 1: check its "
+          "flow and its power",
+          efficiency));
     add(out, {"compressor_exergy_W_per_kg", "exergy flow per mass of the compressor",
               flow * gas::stream_exergy(air, supply.line) / supply.compressor_mass, "W/kg"});
   }
@@ -244,7 +271,8 @@ void add_one_more(Result& out, const AirUses& uses, const AirUse& use, double us
               Value::unknown, Value::unknown, "", "min"});
 }
 
-// Adds the pressure in the line at the consumption, and a warning if it is below the lowest one.
+// Adds the pressure in the line at the consumption, and a warning if it is below a lowest one that
+// is given.
 void add_droop(Result& out, const AirSettings& s, const Supply& supply, const AirUse& use,
                const gas::Air& air) {
   if (s.droop.empty() || !std::isfinite(use.per_second)) return;
@@ -255,7 +283,7 @@ void add_droop(Result& out, const AirSettings& s, const Supply& supply, const Ai
   add(out, {"drooped_line_Pa", "pressure in the line at the mean flow", line - air.atmosphere,
             "Pa gauge", Value::unknown, Value::unknown,
             fmt::format("{:.3g} L/min of free air", 6e4 * flow)});
-  if (supply.store && line < supply.store->lowest)
+  if (supply.lowest && line < *supply.lowest)
     out.warnings.push_back(
         "at the mean flow the regulator's pressure is below the lowest pressure in the line: a "
         "larger regulator, or a lower one");
@@ -272,10 +300,6 @@ std::string title_of(const Result& result, const AirUses& uses) {
   if (std::isfinite(steps)) out += fmt::format(", {:.3g} steps", steps);
   if (std::isfinite(distance)) out += fmt::format(", {:.3g} m", distance);
   return out;
-}
-
-std::string gauge_bar(double pressure, const gas::Air& air) {
-  return fmt::format("{:.3g} bar gauge", (pressure - air.atmosphere) / 1e5);
 }
 
 }  // namespace

@@ -231,6 +231,40 @@ TEST_F(DesignAirOfRuns, ACompressorKeepsUpOrDoesNot) {
   EXPECT_TRUE(std::isinf(design(s).of("time_s").number));
 }
 
+TEST_F(DesignAirOfRuns, AFullBottleHasANumberUpToTheLastPressure) {
+  AirSettings s = settings("");
+  s.use = write("table.csv", "air_used_per_step [g],status\n0.4,ok\n");
+  s.line = "7 bar gauge", s.pressure = "31898647 Pa gauge";
+  EXPECT_GT(design(s).of("steps").number, 0);
+  EXPECT_GT(design(s).of("exergy_J").number, 0);
+  // A room of more pressure leaves less for the gauge.
+  walk("low", {"air.atmosphere=1.05 bar abs"});
+  s.use = path("low");
+  EXPECT_TRUE(message([&] {
+                (void)design(s);
+              }).starts_with("pressure: found \"31898647 Pa gauge\"; expected at most 318.95 bar"));
+  s.pressure = "318.95 bar gauge";
+  EXPECT_GT(design(s).of("steps").number, 0);
+}
+
+TEST_F(DesignAirOfRuns, ALowestPressureThatIsGivenWarnsOfTheDroop) {
+  walk("walk");
+  AirSettings s = settings("walk");
+  s.droop = "14.5 psi diff", s.droop_flow = "10 L/min";
+  EXPECT_TRUE(design(s).warnings.empty());
+  s.lowest = "80 psi gauge";
+  EXPECT_TRUE(design(s).warnings.empty());
+  s.lowest = "99 psi gauge";
+  EXPECT_NE(design(s).warnings.at(0).find("below the lowest pressure in the line"),
+            std::string::npos);
+}
+
+TEST_F(DesignAirOfRuns, ACompressorThatGivesMoreThanItTakesIsDoubted) {
+  walk("walk");
+  const AirSettings s{.use = path("walk"), .compressor = {"10 bar gauge, 10 L/min, 1 W"}};
+  EXPECT_NE(design(s).warnings.at(0).find("an isothermal efficiency of 3"), std::string::npos);
+}
+
 // --- wrong inputs ---
 
 TEST_F(DesignAirOfRuns, RefusesInWords) {
@@ -251,6 +285,28 @@ TEST_F(DesignAirOfRuns, RefusesInWords) {
   starts(of([](AirSettings& s) { s.pressure = s.volume = ""; }),
          "volume: found nothing; expected a store or a compressor");
   starts(of([](AirSettings& s) { s.pressure = "330 bar gauge"; }), "pressure: found \"330 bar");
+  starts(of([](AirSettings& s) { s.pressure = "319 bar gauge"; }), "pressure: found \"319 bar");
+  starts(of([](AirSettings& s) { s.line = "319 bar gauge"; }), "line: found \"319 bar");
+  starts(of([](AirSettings& s) { s.lowest = "50 bar gauge"; }),
+         "lowest: found \"50 bar gauge\"; expected at most the set pressure of the line, 6.89 bar");
+  starts(of([](AirSettings& s) { s.muscles = 5; }),
+         "muscles: found a setting for the file of a muscle; expected none");
+  starts(of([](AirSettings& s) { s.cycles = "3 Hz"; }), "cycles: found a setting");
+  starts(of([](AirSettings& s) { s.contraction = "30 %"; }), "contraction: found a setting");
+  const auto of_muscle = [&](const auto& change) {
+    return of([&](AirSettings& s) {
+      s.use = test::source_dir() + "/robots/leg/actuator.toml";
+      s.muscles = 1, s.cycles = "1 Hz", s.contraction = "20 %", s.line = "6 bar gauge";
+      s.length = "80 mm";
+      change(s);
+    });
+  };
+  starts(of_muscle([](AirSettings& s) { s.muscle_pressure = "8 bar gauge"; }),
+         "muscle_pressure: found \"8 bar gauge\"; expected at most the pressure of the line");
+  starts(of_muscle([](AirSettings& s) { s.length = "300mm"; }),
+         "length: found \"300mm\", which is 300 mm; expected a length that the muscle can have");
+  starts(of_muscle([](AirSettings& s) { s.contraction = "40 %"; }),
+         "contraction: found \"40 %\", which is 48 mm; expected a length");
   starts(of([](AirSettings& s) { s.droop = "1 bar diff"; }), "droop_flow: found nothing");
   starts(of([](AirSettings& s) { s.compressor = {"7 bar gauge, 6,2 L/min"}; }),
          "compressor: found \"7 bar gauge, 6,2 L/min\"; expected pressure, free flow and power");

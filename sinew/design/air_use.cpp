@@ -177,10 +177,16 @@ AirUses of_muscle(const AirSettings& s) {
   if (s.muscle_pressure.empty() && s.line.empty())
     config::fail({"muscle_pressure", 0, 0}, "", "nothing", "the pressure of a full muscle",
                  R"(muscle_pressure="6 bar gauge")");
+  const double full_length = length * (1 - values.of(s.contraction));
+  require_length(a, length, "length", s.length);
+  require_length(a, full_length, "contraction", s.contraction);
   const double pressure =
       s.muscle_pressure.empty() ? values.of(s.line) : values.of(s.muscle_pressure);
-  const double filling = air_of_filling(a, values.of(s.external_volume), length,
-                                        length * (1 - values.of(s.contraction)), pressure, air);
+  if (!s.line.empty() && pressure > values.of(s.line))
+    config::refuse_setting("muscle_pressure", config::in_quotes(s.muscle_pressure),
+                           "at most the pressure of the line, " + config::in_quotes(s.line));
+  const double filling =
+      air_of_filling(a, values.of(s.external_volume), length, full_length, pressure, air);
   const double rate = s.muscles * values.of(s.cycles) * filling;
   AirUses out{.title = fmt::format("{} muscles `{}`", s.muscles, a.name),
               .runs = {{rate, Value::unknown, Value::unknown, 0}},
@@ -192,6 +198,21 @@ AirUses of_muscle(const AirSettings& s) {
   return out;
 }
 
+// Throws config::Error about a setting that describes muscles of a file.
+void refuse_settings_of_muscles(const AirSettings& s) {
+  for (const auto& [name, given] :
+       {std::pair{"name", !s.name.empty()},
+        {"muscles", s.muscles > 0},
+        {"cycles", !s.cycles.empty()},
+        {"length", !s.length.empty()},
+        {"contraction", !s.contraction.empty()},
+        {"muscle_pressure", !s.muscle_pressure.empty()},
+        {"external_volume", s.external_volume != AirSettings().external_volume}})
+    if (given)
+      config::refuse_setting(name, "a setting for the file of a muscle",
+                             "none, since a run or a table has its own consumption");
+}
+
 }  // namespace
 
 AirUses air_uses(const AirSettings& s) {
@@ -200,10 +221,13 @@ AirUses air_uses(const AirSettings& s) {
     config::refuse_setting(
         "use", config::in_quotes(s.use),
         "the folder of a run, its summary.json, the table of a sweep or a file of an actuator");
+  const bool is_file_of_muscle = !fs::is_directory(path) && path.extension() == ".toml";
+  if (is_file_of_muscle) return of_muscle(s);
+  refuse_settings_of_muscles(s);
   if (fs::is_directory(path)) return of_run(path / run::summary_name);
   if (path.extension() == ".json") return of_run(path);
   if (path.filename() == run::log_name) return of_run(path.parent_path() / run::summary_name);
-  return path.extension() == ".toml" ? of_muscle(s) : of_table(path);
+  return of_table(path);
 }
 
 }  // namespace sinew::design

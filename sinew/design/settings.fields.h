@@ -173,8 +173,8 @@ struct AirSettings {
 
 template <class Visitor>
 void fields(Visitor& v, AirSettings& s) {
-  constexpr config::Range stored =
-      config::above_zero(gas::highest_stored_pressure, "compressibilities are known up to it");
+  constexpr config::Range stored = config::above_zero(
+      gas::highest_stored_pressure - units::atmosphere, "compressibilities are known up to it");
   constexpr config::Range weight = config::above_zero(1e4, "on a robot");
   v.method({"air", "Find how long a bottle, a tank or a compressor lasts", config::Tables::none});
   v.file(Setting{"use",
