@@ -35,8 +35,16 @@ PublishedValve published(const gas::Valve& valve, const Origins& origins) {
 
   PublishedValve out{.valve = valve};
   if (flow > 0) out.flow = {bounds.low / flow, bounds.high / flow};
-  out.is_flow_published =
-      flow > 0 && !(origin && origin->guess && origin->source.find("not published") == 0);
+  const bool is_placeholder =
+      origin && origin->guess && (!origin->range_si || origin->source.starts_with("not published"));
+  out.is_flow_published = flow > 0 && !is_placeholder;
+  if (iso)
+    out.critical_ratio =
+        bounds_of(config::find_origin(origins, path + "flow.critical_pressure_ratio"),
+                  valve.flow.critical_pressure_ratio);
+  if (valve.fails_above > 0)
+    out.fails_above =
+        bounds_of(config::find_origin(origins, path + "fails_above"), valve.fails_above);
   const bool ideal = valve.profile == gas::Valve::Profile::ideal;
   const std::string drive = valve.drive == gas::Valve::Drive::speed_up ? "speed_up." : "";
   const gas::Delays delays = gas::delays(valve);

@@ -1,9 +1,10 @@
 // design/catalogue.h - valves of a file as published: their values with the bounds that the file
 // states, and what it marks as not published.
 //
-//   range = ["0 ms", "4 ms"]                     bounds of the value: what a maker states as "at
-//   most" guess = true, source = "not published"       on the flow: it is a placeholder no
-//   opening_delay                             unknown, not 0
+//   range = ["0 ms", "4 ms"]                     bounds of the value: a maker's "at most"
+//   guess = true, source = "not published …"     on the flow: it is a placeholder, and unknown; so
+//                                                is a guess without a range
+//   no opening_delay                             unknown, not 0
 #pragma once
 
 #include <string>

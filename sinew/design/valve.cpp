@@ -52,6 +52,9 @@ void require_fill(const ValveTask& task) {
 void require_vent(const ValveTask& task) {
   const AirChange& vent = *task.vent;
   require_volume(vent);
+  if (vent.from <= task.air.atmosphere)
+    config::refuse_setting("pressure", gauge_text(task.air, vent.from),
+                           "a pressure above that of the room, into which the muscle is vented");
   if (vent.to <= task.air.atmosphere)
     config::refuse_setting("vent_to", gauge_text(task.air, vent.to),
                            "a pressure above that of the room, into which the muscle is vented");
@@ -65,9 +68,12 @@ void require_pulses(const ValveTask& task) {
   if (task.step > 0 && !(task.frequency > 0))
     config::refuse_setting("step", "a pressure step without pulses", "their frequency too");
   if (!(task.frequency > 0)) return;
-  if (!(task.duty.low > 0 && task.duty.low < task.duty.high && task.duty.high < 1))
-    config::refuse_setting("duty", fmt::format("{:.4g} to {:.4g}", task.duty.low, task.duty.high),
-                           "two duties between 0 and 1, the smaller one first");
+  const auto [low, high] = task.duty;
+  if (!(high < 1))
+    config::refuse_setting("greatest_duty", fmt::format("{:.4g}", high), "less than 1");
+  if (!(low > 0 && low < high))
+    config::refuse_setting("least_duty", fmt::format("{:.4g}", low),
+                           fmt::format("a duty above 0 and below the greatest duty, {:.4g}", high));
 }
 
 void require_possible(const ValveTask& task) {
@@ -126,11 +132,26 @@ std::string between(const Bounds& b, double unit, std::string_view name) {
 }
 std::string milliseconds(const Bounds& b) { return between(b, 1e-3, "ms"); }
 
+// Returns the flow of a published valve with another critical ratio; an orifice has none.
+gas::Flow with_critical_ratio(gas::Flow flow, double ratio) {
+  if (flow.law == gas::Flow::Law::iso6358) flow.critical_pressure_ratio = ratio;
+  return flow;
+}
+
 // Collects the verdict of one valve: the worst of all.
 class Judge {
  public:
   Judge(const ValveTask& task, const ValveNeed& need, const PublishedValve& published)
-      : task_(task), need_(need), published_(published), valve_(published.valve) {}
+      : task_(task),
+        need_(need),
+        published_(published),
+        valve_(published.valve),
+        slow_(valve_.flow),
+        fast_(valve_.flow) {
+    if (!published.critical_ratio) return;
+    slow_ = with_critical_ratio(slow_, published.critical_ratio->low);
+    fast_ = with_critical_ratio(fast_, published.critical_ratio->high);
+  }
 
   ValveChoice choice() {
     out_.name = valve_.name;
@@ -159,10 +180,16 @@ class Judge {
   }
 
   void judge_pressure() {
-    if (!(valve_.fails_above > 0) || need_.pressure_difference <= valve_.fails_above) return;
-    put(Verdict::misses,
-        fmt::format("known to open up to {:.3g} bar, not at {:.3g} bar",
-                    valve_.fails_above / units::bar, need_.pressure_difference / units::bar));
+    const double difference = need_.pressure_difference;
+    const Bounds limit =
+        published_.fails_above.value_or(Bounds{valve_.fails_above, valve_.fails_above});
+    if (!(limit.low > 0) || difference <= limit.low) return;
+    if (difference <= limit.high)
+      put(Verdict::unknown, fmt::format("opens up to {:.3g} bar, not published at {:.3g} bar",
+                                        limit.low / units::bar, difference / units::bar));
+    else
+      put(Verdict::misses, fmt::format("known to open up to {:.3g} bar, not at {:.3g} bar",
+                                       limit.high / units::bar, difference / units::bar));
   }
 
   void judge_pulses() {
@@ -193,7 +220,8 @@ class Judge {
 
   // Returns the time of a change with the opening delay.
   Bounds timed(const AirChange& change, double port, std::string_view does) {
-    const Bounds open = change_time(valve_.flow, task_.air, port, change);
+    const Bounds open{change_time(fast_, task_.air, port, change).low,
+                      change_time(slow_, task_.air, port, change).high};
     const Bounds delay = out_.opening.value_or(Bounds{});
     const Bounds time{delay.low + open.low / published_.flow.high,
                       delay.high + open.high / published_.flow.low};
@@ -217,7 +245,7 @@ class Judge {
   void judge_step() {
     if (!(task_.frequency > 0) || !out_.opening || !out_.closing) return;
     if (out_.opening->low >= need_.opening_below) return;  // no pulse opens it
-    const Bounds rate = fastest_rate(task_, valve_.flow);
+    const Bounds rate{fastest_rate(task_, slow_).low, fastest_rate(task_, fast_).high};
     const auto open = [&](double opening, double closing) {
       return signals::delivered_open_time(task_.duty.low, 1.0 / task_.frequency, opening, closing);
     };
@@ -234,6 +262,7 @@ class Judge {
   const ValveNeed& need_;
   const PublishedValve& published_;
   const gas::Valve& valve_;
+  gas::Flow slow_, fast_;  // at the ends of the range of its critical ratio
   ValveChoice out_;
 };
 

@@ -13,7 +13,8 @@
 // All results are bounds: between the two limits of heat, the bounds of the volume, the order in
 // which volume and pressure change, and the bounds of what is published about a valve. Walls with a
 // time constant of their own may be some percent slower than the slower limit (fill.h). The hose
-// adds volume and no resistance. The critical ratio of a listed valve is the file's.
+// adds volume and no resistance. The critical ratio of a listed valve is the file's, with its
+// range.
 #pragma once
 
 #include <limits>
@@ -55,6 +56,8 @@ struct PublishedValve {
   gas::Valve valve;
   Bounds flow = {1, 1};                    // bounds of the flow, over that of `valve` [-]
   bool is_flow_published = true;           // false: the flow of `valve` is a guess
+  std::optional<Bounds> critical_ratio;    // b [-]; empty: that of `valve`
+  std::optional<Bounds> fails_above;       // between them it is unknown [Pa]; empty: as in `valve`
   std::optional<Bounds> opening, closing;  // delays of its drive [s]; empty: not published
 };
 
@@ -63,7 +66,7 @@ struct ValveNeed {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
   Bounds fill = {none, none}, vent = {none, none};  // sonic conductance, at least [m3/(s Pa)]
-  double at_most = none;        // sonic conductance for the step, at most [m3/(s Pa)]
+  double at_most = none;        // sonic conductance for the step, for equal delays [m3/(s Pa)]
   double opening_below = none;  // delays that the pulses allow [s]
   double closing_below = none;
   double pressure_difference = 0;  // largest one over the valve [Pa]

@@ -7,6 +7,7 @@
 
 #include "sinew/actuator/body.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/design/air.h"
 #include "sinew/design/catalogue.h"
 #include "sinew/design/methods.h"
 #include "sinew/design/valve.h"
@@ -34,12 +35,13 @@ Bounds with_uncertainty(double volume, double share) {
 }
 
 // Returns the volume of one muscle of a file at a length.
-double volume_at(const actuator::Actuator& a, double length, std::string_view setting) {
+double volume_at(const actuator::Actuator& a, double length, std::string_view setting,
+                 const std::string& written) {
+  require_length(a, length, setting, written);
   const double volume = actuator::volume(a, length);
   if (volume > 0) return volume;
   config::refuse_setting(setting, units::format_quantity(length, "m", "mm"),
-                         "a length at which the muscle holds air: its threads are " +
-                             units::format_quantity(a.braid.thread_length, "m", "mm") + " long");
+                         "a length at which the muscle holds air");
 }
 
 Filled filled_by_volume(const ValveSettings& s, const config::SettingValues& values) {
@@ -68,11 +70,12 @@ Filled filled_by_actuator(const ValveSettings& s) {
     config::refuse_setting("length", "nothing", "the length of the muscle as it begins to fill",
                            R"(length="90 mm")");
   const double share = values.of(s.uncertainty), hose = values.of(s.external_volume);
-  const double begin = s.count * volume_at(a, values.of(s.length), "length") + hose;
-  const double end =
-      s.contracted_length.empty()
-          ? begin
-          : s.count * volume_at(a, values.of(s.contracted_length), "contracted_length") + hose;
+  const double begin = s.count * volume_at(a, values.of(s.length), "length", s.length) + hose;
+  const double end = s.contracted_length.empty()
+                         ? begin
+                         : s.count * volume_at(a, values.of(s.contracted_length),
+                                               "contracted_length", s.contracted_length) +
+                               hose;
   return {file.experiment.air, with_uncertainty(begin, share), with_uncertainty(end, share)};
 }
 
@@ -128,6 +131,10 @@ gas::Flow flow_of(const std::string& text, double critical_ratio, const gas::Air
   if (word == "C") {
     out.sonic_conductance = number("m3/(s Pa)", 1e-3);
   } else if (word == "Qn") {
+    const units::NumberAndUnit given = units::split_number(rest);
+    if (units::lower(given.unit).starts_with("nl/"))
+      config::refuse_setting("flow", config::in_quotes(text), "the flow of free air, in L/min",
+                             fmt::format(R"(flow="Qn {} L/min")", given.number));
     nominal(number("m3/s", 100));
   } else if (word == "Cv") {
     nominal(gas::nominal_flow_of_cv(number("1", 1e4)));
@@ -208,7 +215,7 @@ void add_values(Result& out, const ValveNeed& need, const ValveTask& task) {
   add("vent_sonic_conductance_m3_per_s_Pa", "C to vent", need.vent.high, "m3/(s Pa)", need.vent,
       "heat, volume and load as bounds");
   add("greatest_sonic_conductance_m3_per_s_Pa", "C, at most", need.at_most, "m3/(s Pa)", none,
-      "for the step of one pulse");
+      "for the step of one pulse, with equal delays");
   add("opening_delay_s", "opens in less than", need.opening_below, "s", none, "the shortest pulse");
   add("closing_delay_s", "shuts in less than", need.closing_below, "s", none, "the shortest gap");
   add("pressure_difference_Pa", "pressure over the valve", need.pressure_difference, "Pa diff",
@@ -370,11 +377,13 @@ void add_notes(Result& out, const std::vector<ValveChoice>& choices) {
 
 void add_warnings(Result& out, const std::vector<ValveChoice>& choices, const ValveNeed& need) {
   const Bounds least = needed_flow(need);
-  if (need.at_most < least.high)
-    out.warnings.push_back(fmt::format(
-        "no flow does both: the times need {:.3g} L/(s bar), the step allows {:.3g}; a higher "
-        "frequency or a smaller least duty makes a pulse shorter",
-        least.high * 1e8, need.at_most * 1e8));
+  const auto suffices = [](const ValveChoice& c) { return c.verdict == Verdict::suffices; };
+  if (need.at_most < least.high && std::ranges::none_of(choices, suffices))
+    out.warnings.push_back(
+        fmt::format("with equal delays no flow does both: the times need {:.3g} L/(s bar), the "
+                    "step allows {:.3g}; a higher "
+                    "frequency or a smaller least duty makes a pulse shorter",
+                    least.high * 1e8, need.at_most * 1e8));
   const auto does = [](const ValveChoice& c) { return c.verdict != Verdict::misses; };
   if (std::ranges::none_of(choices, does))
     out.warnings.push_back("no valve of the list does this; the column of remarks has the reasons");

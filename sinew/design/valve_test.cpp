@@ -6,12 +6,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <random>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/design/catalogue.h"
 #include "sinew/gas/conductance.h"
 #include "sinew/gas/fill.h"
+#include "sinew/host/temporary_folder.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::design::valve_test {
@@ -246,6 +249,40 @@ TEST(ValveChoice, AValveIsNotUsedAboveItsPressure) {
   EXPECT_EQ(choose_valves(filled_in(0.1), {low})[0].verdict, Verdict::suffices);
 }
 
+TEST(ValveChoice, ALimitOfPressureWithARangeIsUnknownWithinIt) {
+  PublishedValve sold = valve(1e-7, 0, 0);
+  const auto verdict = [&](double low, double high) {
+    sold.valve.fails_above = low;
+    sold.fails_above = Bounds{low, high};
+    return choose_valves(filled_in(0.1), {sold})[0].verdict;
+  };
+  EXPECT_EQ(verdict(7 * bar, 14 * bar), Verdict::suffices);
+  EXPECT_EQ(verdict(5 * bar, 10 * bar), Verdict::unknown);
+  EXPECT_EQ(verdict(2.5 * bar, 5 * bar), Verdict::misses);
+}
+
+TEST(ValveChoice, ARangeOfTheCriticalRatioWidensTheTimesAndTheStep) {
+  ValveTask task = pulses(50);
+  task.fill->to = room + 5.5 * bar;
+  task.vent = rigid(room + 5.5 * bar, room + 0.5 * bar, 50 * ml, 0);
+  PublishedValve ranged = valve(1e-9, 1 * ms, 1 * ms);
+  const auto at = [&](double ratio) {
+    PublishedValve one = ranged;
+    one.valve.flow.critical_pressure_ratio = ratio;
+    return choose_valves(task, {one})[0];
+  };
+  const ValveChoice least = at(0.2), most = at(0.528);
+  ranged.critical_ratio = Bounds{0.2, 0.528};
+  const ValveChoice both = at(0.3);
+  EXPECT_EQ(both.fill.low, most.fill.low);
+  EXPECT_EQ(both.fill.high, least.fill.high);
+  EXPECT_EQ(both.vent.low, most.vent.low);
+  EXPECT_EQ(both.vent.high, least.vent.high);
+  EXPECT_EQ(both.step.low, least.step.low);
+  EXPECT_EQ(both.step.high, most.step.high);
+  EXPECT_GT(both.fill.high, at(0.3).fill.low);
+}
+
 // --- wrong tasks ---
 
 std::string message(const ValveTask& task) {
@@ -277,7 +314,14 @@ TEST(ValveTask, WhatNoValveCanDoIsRefusedInWords) {
   EXPECT_EQ(message(task).find("step: found a pressure step without pulses"), 0u);
   task.frequency = 50;
   task.duty = {0.9, 0.1};
-  EXPECT_EQ(message(task).find("duty: found 0.9 to 0.1"), 0u);
+  EXPECT_EQ(message(task),
+            "least_duty: found 0.9; expected a duty above 0 and below the greatest "
+            "duty, 0.1");
+  task.duty = {0.1, 1};
+  EXPECT_EQ(message(task), "greatest_duty: found 1; expected less than 1");
+  task = filled_in(0.1);
+  task.vent = rigid(room, room, 50 * ml, 0.1);
+  EXPECT_EQ(message(task).find("pressure: found 0 bar gauge; expected a pressure above"), 0u);
 }
 
 // --- the catalogue and the thesis ---
@@ -312,6 +356,38 @@ TEST(ValveCatalogue, HasWhatIsPublishedAndMarksWhatIsNot) {
   EXPECT_NEAR(
       c("smc-sy3240") / gas::conductance_of_nominal_flow(gas::nominal_flow_of_cv(0.30), 0.3), 1,
       0.01);
+}
+
+TEST(ValveCatalogue, AVerdictHoldsForTheWholeRangeOfTheCriticalRatio) {
+  const std::vector<PublishedValve> all = published_valves(shipped_catalogue());
+  ValveTask task = filled_in(0.335);
+  task.fill->to = room + 5.5 * bar;
+  PublishedValve of = listed(all, "smc-vq110u");
+  const ValveChoice ranged = choose_valves(task, {of})[0];
+  EXPECT_EQ(ranged.verdict, Verdict::may_suffice);
+  EXPECT_NEAR(ranged.fill.high / ms, 341.9, 0.05);
+  of.critical_ratio.reset();
+  EXPECT_EQ(choose_valves(task, {of})[0].verdict, Verdict::suffices);
+  EXPECT_NEAR(listed(all, "festo-mha2").fails_above->high, 16 * bar, 1e-6);
+  EXPECT_FALSE(listed(all, "festo-mhj10").fails_above.has_value());
+}
+
+TEST(ValveCatalogue, AGuessWithoutARangeIsNoPublishedFlow) {
+  const std::string folder = host::make_temporary_folder("sinew-design-valve");
+  const auto is_published = [&](const std::string& flow) {
+    const std::string path = folder + "/v.toml";
+    std::ofstream(path) << "format = \"sinew.valves/1\"\n[valve.one]\nkind = \"2-way\"\n"
+                           "profile = \"dead time\"\nflow = { law = \"orifice\", area = "
+                        << flow << " }\n";
+    return published_valves(path).at(0).is_flow_published;
+  };
+  EXPECT_TRUE(is_published(R"("1 mm2")"));
+  EXPECT_FALSE(is_published(R"({ value = "1 mm2", guess = true, source = "ours" })"));
+  EXPECT_TRUE(is_published(
+      R"({ value = "1 mm2", guess = true, range = ["0 mm2", "1 mm2"], source = "at most 1 mm2" })"));
+  EXPECT_FALSE(is_published(
+      R"({ value = "1 mm2", guess = true, range = ["0 mm2", "1 mm2"], source = "not published" })"));
+  std::filesystem::remove_all(folder);
 }
 
 // 3.3: A_p C_q = 1.8e-5 ft2 of Nelson's valve is a C of 0.333 L/(s bar).
