@@ -130,7 +130,7 @@ Result design(const LifeSettings& s) {
   add(out, "cycles", "cycles of one muscle", "1", one, "mean until it fails");
   add(out, "time_s", "time of one muscle", "s", time, "mean, as the robot is used");
   add(out, "first_failure_s", "time to the first failure", "s", {time.least / n, time.most / n},
-      fmt::format("mean, of {} muscles", s.muscles));
+      s.muscles > 1 ? fmt::format("mean, of {} muscles", s.muscles) : "mean");
   if (const auto duration = values.given(s.duration)) {
     const LifeBounds b = actuator::survival(one, n, *duration * frequency * duty);
     const bool known = one.least > 0 || std::isfinite(one.most);
