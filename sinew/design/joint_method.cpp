@@ -263,20 +263,26 @@ std::string robot_file(const JointSettings& s, const Candidate& c, double extern
   const robot::Robot& robot = base.experiment.robot;
   const robot::Joint& joint = config::named(robot.joints, s.joint, "joint", "joint");
   const std::string source = fmt::format("sinew design joint with {}", s.actuator);
+  // Each value has its own source: one of the table would replace that of the base's values.
+  const auto put_sourced = [&](config::Node& table, std::string_view key, config::Node value) {
+    config::Node sourced = config::make_table(key);
+    sourced.put(std::move(value));
+    sourced.put(config::make_text("source", source));
+    table.put(std::move(sourced));
+  };
   const auto put = [&](config::Node& table, std::string_view key, double value, const char* unit) {
-    table.put(config::make_text(key, units::format_quantity(value, unit, unit, 10)));
+    put_sourced(table, key,
+                config::make_text("value", units::format_quantity(value, unit, unit, 10)));
   };
   config::Node joints = config::make_table("joint"), one = config::make_table(joint.name);
-  one.put(config::make_text("source", source));
   put(one, "moment_arm", c.joint.moment_arm, "m");
   joints.put(one);
   config::Node muscles = config::make_table("muscle");
   for (const robot::Muscle& m : robot.muscles) {
     if (m.joint != joint.name || !m.second.joint.empty()) continue;
     config::Node muscle = config::make_table(m.name);
-    muscle.put(config::make_text("source", source));
     muscle.put(config::make_text("actuator", c.joint.actuator.name));
-    muscle.put(config::make_integer("count", c.joint.count));
+    put_sourced(muscle, "count", config::make_integer("value", c.joint.count));
     put(muscle, "mount_length", c.joint.mount_length, "m");
     put(muscle, "external_volume", external_volume, "m3");
     const actuator::Bladder& bladder = c.joint.actuator.bladder;

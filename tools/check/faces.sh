@@ -39,7 +39,9 @@ step_web() {
     { time = \"3.2 s\", key = \"control.gains.hip.angle\", value = \"0.6 %/count\" },
     { time = \"5 s\", key = \"control.stiffness.knee\", value = \"2 N m/rad\" },
     { time = \"7 s\", key = \"control.gains.hip.angle\", release = true }]" >/dev/null || return 1
-  mkdir "$runs/static"
+  mkdir "$runs/design" "$runs/static"
+  "$sinew" design joint --actuator robots/leg/actuator.toml --torque "20 lbf in" --angles "40 deg" --pressure "100 psi gauge" \
+    --moment-arm "1 in" --report "$runs/design/report.html" --quiet >/dev/null || return 1
   "$sinew" identify static data/martens_boblan_2017/DMSP-10-250_force_map.csv --unit L_m=m --unit F_N=N \
     --map length=L_m,pressure=P_gauge_Pa,force=F_N --unit "P_gauge_Pa=Pa gauge" --rest-length "250 mm" \
     --hold-out pressure --report "$runs/static/report.html" --quiet >/dev/null || return 1

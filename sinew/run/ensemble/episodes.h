@@ -30,6 +30,8 @@ class Episodes {
   Episodes(const Episodes&) = delete;
   Episodes& operator=(const Episodes&) = delete;
 
+  // Return the number of environments, the definition of their episodes, and the number of
+  // parameters that each has.
   std::size_t count() const { return episodes_.size(); }
   const Episode& definition() const { return *definition_; }
   std::size_t parameters() const { return ensemble_->units().size(); }
