@@ -12,6 +12,7 @@
 #include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/design/methods.h"
+#include "sinew/experiment/machine_file.h"
 #include "sinew/report/page/page.h"
 
 namespace sinew::cli {
@@ -65,6 +66,17 @@ std::vector<std::string> inputs_of(const Settings& settings) {
   return out;
 }
 
+// Warns if the robot that was written cannot be simulated, such as one whose sensor would leave its
+// converter's range.
+void warn_of_errors(const std::string& robot, const Messages& messages) {
+  try {
+    (void)experiment::load_machine_file(robot);
+  } catch (const config::Error& e) {
+    messages.warning(
+        fmt::format("{} cannot be simulated before these errors are mended:\n{}", robot, e.what()));
+  }
+}
+
 template <class Settings>
 ExitCode run_design(const DesignOptions<Settings>& options) {
   if (!options.report.empty()) {
@@ -86,6 +98,7 @@ ExitCode run_design(const DesignOptions<Settings>& options) {
           {"--out", 0, 0}, "", "no robot file to write",
           "--base, the robot file whose joint is designed, a cam, and the muscle as in its file");
     write_output(options.out, result.file(options.out), options.quiet);
+    warn_of_errors(options.out, messages);
   }
   if (!options.report.empty())
     write_output(options.report, design::page_of(result, units::atmosphere, SINEW_VERSION),
