@@ -32,7 +32,7 @@ class Joint(unittest.TestCase):
             self.assertAlmostEqual(experiment["muscle.flexor.mount_length"], made.report["mount_length_m"], 9)
 
     def test_without_a_design_the_reason_is_in_words(self) -> None:
-        """A torque that no number of muscles reaches."""
+        """A torque beyond that of all muscles gives a refusal."""
         self.assertIn("side by side reach", design.joint(**TASK, torque="500 N m").refused)
 
 

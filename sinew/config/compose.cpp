@@ -271,7 +271,7 @@ void set_element(Node& table, std::string_view segment, std::string_view text,
 
 // --- valves of a catalogue ---
 
-// Returns whether --set gave the value or a part of it; removes the other parts of a table.
+// Returns whether --set gave the value, or one of its parts; removes the other parts of a table.
 bool leave_settings(Node& node) {
   if (node.where.file == set_origin || !node.is_table()) return node.where.file == set_origin;
   std::erase_if(node.children, [](Node& child) { return !leave_settings(child); });

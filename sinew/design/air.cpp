@@ -55,7 +55,7 @@ double air_of_filling(const actuator::Actuator& a, double external_volume, doubl
 
 void require_length(const actuator::Actuator& a, double length, std::string_view setting,
                     const std::string& written) {
-  constexpr double rounding = 1e-5;  // of the ends that a message shows
+  constexpr double rounding = 1e-5;  // share by which a message rounds an end [-]
   const double shortest = actuator::shortest_length(a), longest = a.long_end.length;
   if (length >= shortest * (1 - rounding) && length <= longest * (1 + rounding)) return;
   const auto shown = [](double x) { return units::format_quantity(x, "m", "mm"); };

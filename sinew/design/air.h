@@ -40,7 +40,7 @@ struct AirUse {
 // A bottle or tank behind a regulator; pressures are absolute.
 struct AirStore {
   double volume = 0;    // [m3]
-  double pressure = 0;  // of the full store [Pa]
+  double pressure = 0;  // pressure of the full store, absolute [Pa]
   double lowest = 0;    // in the line, at which the machine stops [Pa]
 };
 

@@ -31,7 +31,7 @@ std::string gauge_bar(double pressure, const gas::Air& air) {
 gas::CompressorPoint point_of(const std::string& text, double atmosphere) {
   const std::vector<std::string> parts = config::at_commas(text);
   const bool bare = std::ranges::any_of(parts, [](const std::string& part) {
-    return units::split_number(part).unit.empty();  // what a decimal comma leaves
+    return units::split_number(part).unit.empty();  // the rest of a number with a decimal comma
   });
   if (parts.size() < 2 || parts.size() > 3 || bare)
     config::fail(

@@ -69,7 +69,7 @@ TEST(DesignAir, WarmWallsNeverLastShorter) {
                 cold = yield_without_heat(store, room);
     EXPECT_GE(warm.air, cold.air);
     EXPECT_GE(cold.air, 0);
-    // What a line gets is less than what the store loses.
+    // A line gets less exergy than the store loses.
     EXPECT_LE(warm.air * gas::stream_exergy(room, store.lowest),
               gas::stored_exergy(room, store.volume, store.pressure) -
                   gas::stored_exergy(room, store.volume, store.lowest));
@@ -152,7 +152,7 @@ TEST_F(DesignAirOfRuns, TheConsumptionIsTheFallOfASimulatedTank) {
   const gas::Air air = experiment::load_machine_file(path("tank/resolved.toml")).experiment.air;
   const double fallen = (first - last) * 2 * litre / (air.gas_constant * air.temperature);
   EXPECT_NEAR(fallen / used, 1, 1e-6);
-  // By the compressibility of the design.
+  // The mass follows from the compressibility of the design.
   const double designed =
       gas::stored_mass(air, 2 * litre, first) - gas::stored_mass(air, 2 * litre, last);
   EXPECT_NEAR(designed / used, 1, 0.01);

@@ -35,9 +35,9 @@ PublishedValve published(const gas::Valve& valve, const Origins& origins) {
 
   PublishedValve out{.valve = valve};
   if (flow > 0) out.flow = {bounds.low / flow, bounds.high / flow};
-  const bool is_placeholder =
+  const bool is_unpublished =
       origin && origin->guess && (!origin->range_si || origin->source.starts_with("not published"));
-  out.is_flow_published = flow > 0 && !is_placeholder;
+  out.is_flow_published = flow > 0 && !is_unpublished;
   if (iso)
     out.critical_ratio =
         bounds_of(config::find_origin(origins, path + "flow.critical_pressure_ratio"),

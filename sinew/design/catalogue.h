@@ -2,7 +2,7 @@
 // states, and what it marks as not published.
 //
 //   range = ["0 ms", "4 ms"]                     bounds of the value: a maker's "at most"
-//   guess = true, source = "not published …"     on the flow: it is a placeholder, and unknown; so
+//   guess = true, source = "not published …"     on the flow: the flow is unknown; so
 //                                                is a guess without a range
 //   no opening_delay                             unknown, not 0
 #pragma once

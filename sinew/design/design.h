@@ -26,7 +26,7 @@ struct Value {
   double number = 0;
   std::string unit;  // SI, "Pa gauge"; "1": a plain number
   double low = unknown, high = unknown;
-  std::string note = "";      // where it comes from, or what it means
+  std::string note = "";      // origin or meaning of the number
   std::string shown_in = "";  // unit in text and on the page, "min"; empty: the chosen set's
 };
 
@@ -52,7 +52,7 @@ struct Result {
   std::vector<report::Plot> plots;    // drawn on the page
   std::vector<std::string> notes;     // assumptions, and reasons of a choice
   std::vector<std::string> warnings;  // for stderr
-  std::vector<std::string> unseen;    // what the result does not show
+  std::vector<std::string> unseen;    // limits of the result, in sentences
   std::string refused;                // why no design is possible; empty: there is one
   // Returns the text of a file that the design makes, as it would be written at `out`; null: none.
   std::function<std::string(const std::string& out)> file;

@@ -70,8 +70,8 @@ double arm_at(const JointDesign& joint, Arm arm, double angle);
 Torque torque_at(const JointDesign& joint, const JointTask& task, double angle, double p,
                  double opposed, double atmosphere);
 
-// Returns the weakest torque over the angles of the task, and its angle; `low` is the lowest at any
-// of them, unknown if it is unknown at one.
+// Returns the weakest torque over the angles of the task, and its angle. `low` is the lowest bound
+// over these angles; it is unknown if one bound is unknown.
 struct Weakest {
   Torque torque;
   double angle = 0;
@@ -96,8 +96,8 @@ double stiffness_at_middle(const JointDesign& joint, double pressure, double atm
 // Returns the air that one stroke over the angles takes [kg].
 double air_of_stroke(const JointDesign& joint, const JointTask& task, const gas::Air& air);
 
-// Returns the largest gauge pressure in the opposing muscle at which the joint still has the torque
-// of the task at every angle [Pa]; NaN if it lacks the torque even when that muscle is vented.
+// Returns the largest gauge pressure in the opposing muscle at which the joint still has the task's
+// torque at every angle [Pa]; NaN if it lacks the torque even when that muscle is vented.
 double co_contraction_left(const JointDesign& joint, const JointTask& task, double atmosphere);
 
 // Returns the mount length with the largest weakest torque among those that allow the motion [m];

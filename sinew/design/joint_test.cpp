@@ -32,12 +32,11 @@ JointTask task_of(double torque, double angles, double motion, double pressure) 
 TEST(DesignJoint, TheThesissStrokeAndArmGiveItsRangeOfMotion) {
   JointDesign joint{leg_actuator(), 2, 1 * units::inch, 3.15 * units::inch};
   const Stroke stroke = stroke_of(joint.actuator, line, room);
-  // "About 1.4 in", "optimum length 3.15 in, half the range": to the last digit that is printed,
-  // half of it more or less for "about".
+  // The text has "about 1.4 in" and "optimum length 3.15 in, half the range".
   EXPECT_NEAR((stroke.longest - stroke.shortest) / units::inch, 1.4, 0.1);
   EXPECT_NEAR(0.5 * (stroke.longest + stroke.shortest) / units::inch, 3.15, 0.05);
   EXPECT_NEAR(motion_of(joint, Arm::cam, stroke) / units::degree, 80, 5);
-  // By construction: 1.4 in at an arm of 1 in.
+  // This is true by construction: 1.4 in at an arm of 1 in.
   EXPECT_NEAR(1.4 / 1 / units::degree, 80, 0.5);
 }
 

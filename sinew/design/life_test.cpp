@@ -27,7 +27,7 @@ TEST(DesignLife, TheLegLastsAsItsBurstsAllow) {
   const actuator::Bounds of_bursts = actuator::life_from_failures(3, 1600);
   EXPECT_NEAR(r.of("cycles").low, of_bursts.least, 1);
   EXPECT_NEAR(r.of("cycles").high, of_bursts.most, 1);
-  // By construction: eight of the mean life would have failed that often.
+  // True by construction: eight muscles of the mean life would have failed that often.
   EXPECT_NEAR(r.of("survival").low, std::exp(-1600 / 182.0), 1e-12);
   EXPECT_NEAR(r.of("survival").high, std::exp(-1600 / 2587.0), 1e-12);
 }

@@ -16,8 +16,8 @@ void for_each_design(const Each& each) {
   each(LifeSettings{});
 }
 
-// Returns the feasible joints as a table, and the one with the fewest muscles; of these, the one
-// that needs the least air per stroke. The result has a robot file if `base` is set.
+// Returns the feasible joints as a table, and the one with the fewest muscles and, among equals,
+// the least air per stroke. The result has a robot file if `base` is set.
 Result design(const JointSettings& settings);
 
 // Returns the flow and the delays that a valve needs, and the valves of a catalogue that have them.

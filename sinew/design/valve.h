@@ -44,9 +44,9 @@ struct AirChange {
 struct ValveTask {
   gas::Air air;
   double supply = 0;                    // absolute [Pa]
-  std::optional<AirChange> fill, vent;  // from the supply, into the room
+  std::optional<AirChange> fill, vent;  // changes of the air: from the supply, into the room
   double critical_ratio = 0.3;          // b of the valve that is looked for [-]
-  double frequency = 0;                 // of the pulses [Hz]; 0: none
+  double frequency = 0;                 // frequency of the pulses [Hz]; 0: without pulses
   Bounds duty = {0.1, 0.9};             // smallest and greatest duty that shall have an effect
   double step = 0;                      // largest pressure step of one pulse [Pa]; 0: any
 };
@@ -89,7 +89,7 @@ struct ValveChoice {
   Bounds step = fill;                      // pressure step of the shortest pulse [Pa]
   std::optional<Bounds> opening, closing;  // delays at the pressures of the task [s]
   Verdict verdict = Verdict::suffices;
-  std::vector<std::string> remarks;  // what it misses, and what is uncertain
+  std::vector<std::string> remarks;  // requirements that it misses, and uncertain ones
 };
 
 // Share of the period for which a valve is open, for a duty.
@@ -110,8 +110,8 @@ Bounds conductance_for(const gas::Air& air, double port, const AirChange& change
 // Returns the requirements of the task. Throws config::Error if no valve can meet it.
 ValveNeed need_of(const ValveTask& task);
 
-// Returns the valves in the order in which to take them: those that suffice, those that may, those
-// of unknown flow or delays, those that miss something; in each group the least flow first, since
+// Returns the valves in the order of preference: valves that suffice, valves that may suffice, ones
+// with an unknown flow or delay, and ones that miss something. Each group has the least flow first:
 // it gives the finest step and needs the least air. Throws config::Error as above.
 std::vector<ValveChoice> choose_valves(const ValveTask& task,
                                        const std::vector<PublishedValve>& valves);

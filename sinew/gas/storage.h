@@ -27,8 +27,8 @@
 //       200 bar and 11 % at 300 bar.
 //   R, T, P_atm, gamma as in air.h
 //
-// Valid up to 320 bar, a bottle of 4500 psi; beyond, all are NaN. Above, the ideal gas's exponent
-// of the second limit would leave less air than warm walls do.
+// Valid up to 320 bar, a bottle of 4500 psi; all are NaN beyond. There the second limit, which has
+// the exponent of an ideal gas, would leave less air than warm walls do.
 #pragma once
 
 #include <algorithm>
@@ -140,7 +140,7 @@ struct CompressorPoint {
 
 // Returns the compressor at a gauge pressure, linear between the points, which are in ascending
 // order of pressure. Below the first point it is that of the first. Above the last one it delivers
-// nothing, as nothing is known of it there.
+// nothing, since it is unknown there.
 inline CompressorPoint compressor_at(std::span<const CompressorPoint> points,
                                      double gauge_pressure) {
   if (points.empty() || gauge_pressure > points.back().gauge_pressure) return {gauge_pressure};

@@ -18,7 +18,7 @@ struct DesignPage {
   std::vector<Plot> plots;
   std::string refused;  // why no design is possible; empty: there is one
   std::vector<std::string> notes, warnings;
-  std::vector<std::string> unseen;  // what the result does not show
+  std::vector<std::string> unseen;  // limits of the result, in sentences
 };
 
 // Returns the page. Throws std::runtime_error if the program was built without its pages.

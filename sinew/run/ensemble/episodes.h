@@ -37,8 +37,8 @@ class Episodes {
   std::size_t parameters() const { return ensemble_->units().size(); }
 
   // Replaces episode i by another one with these values of the ensemble's parameters, in SI: the
-  // next step runs it to its first step's start. Throws config::Error, without changes, for values
-  // that are refused.
+  // next step runs it to its first step's start. Throws config::Error, without changes, if a value
+  // is refused.
   void begin(std::size_t i, int seed, std::span<const double> values);
 
   // Results of a step, a row for each episode.

@@ -49,7 +49,7 @@ Begun draw(std::mt19937& random) {
   return out;
 }
 
-// What happens to an episode in each step: another begins, or it goes on with an action.
+// An event of an episode in a step: another episode begins, or it continues with an action.
 struct Event {
   std::optional<Begun> begins;
   std::vector<double> action;
@@ -139,7 +139,7 @@ std::vector<Rows> together(Episodes& legs, const std::vector<std::vector<Event>>
   return out;
 }
 
-// Returns the first row and number with other bits; empty if there are none.
+// Returns the first row and number with other bits; empty if all bits are equal.
 std::string difference(const Rows& a, const Rows& b) {
   for (std::size_t k = 0; k < std::max(a.size(), b.size()); ++k)
     for (std::size_t i = 0; i < a.at(k).size(); ++i)
