@@ -38,8 +38,8 @@ class PlainAir {
   };
   struct Shares {
     Lanes inlet, exhaust;  // open shares of the valves' areas [-]
-    // For each muscle, the law of each machine's open valve, if only one is open, and the machines
-    // that fill or empty it, a bit each. Set by set_shares().
+    // For each muscle, the law of each machine's open valve, if only one is open, and, a bit each,
+    // the machines that fill or empty it. Set by set_shares().
     std::array<gas::FlowConstantsOf<S>, Most> open;
     std::array<std::uint32_t, Most> fills, empties;
   };

@@ -61,8 +61,8 @@ TEST(DesignJoint, TorqueIsThatOfTheForcesAtBothMuscles) {
   for (int i = 0; i < 100; ++i) {
     const double a = angle(random), p = gauge(random), q = gauge(random);
     const JointTask task = task_of(1, 0.5, 0.5, p);
-    // Virtual work: without friction the torque is -dW/da of the lengths; here both directions,
-    // whose mean has no friction while both muscles pull.
+    // Virtual work: without friction the torque is -dW/da of the lengths; the mean of
+    // both directions has no friction while both muscles pull.
     const double up = torque_at(joint, task, a, p, q, room).value;
     const double down = torque_at(joint, task, -a, q, p, room).value;
     const auto force = [&](double length, double pressure) {

@@ -10,8 +10,8 @@
 //   d       duty, from d_min to d_max [-]                  n      1 isothermal, 1.4 adiabatic
 //   t_o, t_c  opening and closing delay, delay.h [s]       V      volume of muscle and hose [m3]
 //
-// All results are bounds: between the two limits of heat, the bounds of the volume, the order in
-// which volume and pressure change, and the bounds of what is published about a valve. Walls with a
+// All results are bounds: between the two limits of heat, the bounds of the volume, the order of
+// the changes of volume and pressure, and the published bounds of a valve's values. Walls with a
 // time constant of their own may be some percent slower than the slower limit (fill.h). The hose
 // adds volume and no resistance. The critical ratio of a listed valve is the file's, with its
 // range.

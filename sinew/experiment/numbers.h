@@ -20,18 +20,18 @@ class Numbers {
   // Finds the numbers of these keys in an experiment as load() returns it.
   Numbers(const Experiment& like, const std::vector<std::string>& keys);
 
-  // Returns the unit of each key in SI, as in a field table; "" for a whole number, and for a key
-  // that does not exist or has another type, which cannot be set (has()).
+  // Returns the unit of each key in SI, as in a field table; "" for a whole number, and for a
+  // key that cannot be set (has()) because it does not exist or has another type.
   const std::vector<std::string>& units() const { return units_; }
   bool has(std::size_t key) const { return has_[key]; }
   // Returns the values in `like`, in SI; 0 for a key that cannot be set.
   const std::vector<double>& values() const { return values_; }
 
-  // Sets the numbers to values in SI, one for each key, and gains, pulses and times of the plan
-  // that follow from them. `e` must have the same tables as `like`. Returns false if the file has
-  // to be read with these values instead, because one of them is out of its bounds or because keys
-  // appear or vanish with it; `e` has an unspecified value then. Contradictions among the values
-  // are not found here.
+  // Sets the numbers to values in SI, one for each key, and the plan's gains, pulses and
+  // times, which follow from them. `e` must have the same tables as `like`. Returns false if the
+  // file has to be read with these values instead, because one of them is out of its bounds or
+  // because keys appear or vanish with it; `e` has an unspecified value then. Contradictions among
+  // the values are not found here.
   bool set(Experiment& e, std::span<const double> values) const;
   // Sets them without regard to the bounds of their fields, for a search that has its own. Returns
   // false if keys appear or vanish.

@@ -28,9 +28,9 @@ class SensorCounts {
 
   // Returns whether its counts have noise.
   bool noisy() const noexcept { return noise_ > 0; }
-  // Returns the converter's counts for the angle [rad] or tension [N] at its input: offset, noise
-  // of unit standard deviation, rounding to the nearest count, and its two ends (4.1, 4.4: tension
-  // clips at 29.4 lb).
+  // Returns the converter's counts for the angle [rad] or tension [N] at its input: offset, unit
+  // noise (its standard deviation is 1), rounding to the nearest count, and its two ends (4.1, 4.4:
+  // tension clips at 29.4 lb).
   std::uint16_t counts(double quantity, double unit_noise) const noexcept {
     double value = at_rest_ + noise_ * unit_noise;
     if (divides_)

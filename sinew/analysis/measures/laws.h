@@ -16,8 +16,8 @@ inline constexpr double oscillation_window = 0.21;
 // two counts of a converter of 0.08 deg per count does not reach it.
 inline constexpr double least_return = std::numbers::pi / 180;
 
-// Smallest range that counts as a cycle: of contraction [-], beyond the noise of an angle sensor;
-// of pressure [Pa], beyond the noise of a transducer and the last pulses of a valve.
+// Smallest ranges that count as a cycle: a contraction [-] beyond the noise of an angle sensor, and
+// a pressure range [Pa] beyond the noise of a transducer and the last pulses of a valve.
 inline constexpr double least_contraction = 0.01, least_pressure = 1e4;
 
 // Slip velocity below which the foot counts as sticking  [m/s].

@@ -2,9 +2,9 @@
 //
 // The method of ASTM E1049-85, section 5.4.4: of three successive turning points the range between
 // the first two is compared with the range between the last two. A range that is no larger than the
-// next one is a cycle within the larger motion, and its two turning points are removed. A range
-// that begins at the first point left is half a cycle, and that point is removed. What remains at
-// the end are half cycles.
+// next one is a cycle within the larger motion, and its two turning points are removed. If
+// a range begins at the first point left, it is half a cycle, and that point is removed. The ranges
+// left at the end are half cycles.
 //
 //   range   |difference| of the two turning points        mean   their mean
 //   count   1, or 0.5 for half a cycle

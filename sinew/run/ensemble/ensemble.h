@@ -47,8 +47,8 @@ struct RunResult {
 class Ensemble {
  public:
   // Reads the experiment with these settings, "key=value". `parameters` are keys of numbers, whole
-  // numbers included; `figures` are keys of summary.json. Throws config::Error for an experiment
-  // that is refused, and for a parameter that does not exist or is not a number.
+  // numbers included; `figures` are keys of summary.json. Throws config::Error if the experiment
+  // is refused, or if a parameter does not exist or is not a number.
   Ensemble(const std::string& experiment, const std::vector<std::string>& sets,
            std::vector<std::string> parameters, std::vector<std::string> figures,
            bool allow_unreachable = false);

@@ -31,8 +31,8 @@ struct Many {
   std::function<void(std::size_t, RunResult)> done;
   int lanes = 8;  // largest number; 1: one after the other
 };
-// Runs all in this thread (run/simulation/lanes.h). The wanted figures of each result equal those
-// of a single run.
+// Runs all in this thread (run/simulation/lanes.h). Each result has the wanted figures of the
+// same single run.
 void run_many(const Many& many);
 
 // Returns the lanes of each thread, at most `most`, so that all threads have runs.

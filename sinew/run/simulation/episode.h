@@ -58,9 +58,9 @@ class Episode {
   // multiples of the gait controller's period; std::runtime_error if the plan itself fails.
   Episode(const Task& task, Simulation& example);
 
-  // Returns the same episode of an experiment that differs in numbers: with the plan of its own,
-  // from a simulation at its start, which is left unchanged. If that plan fails, its settings stay
-  // from there on. Throws std::invalid_argument as the constructor does.
+  // Returns the same episode of an experiment that differs in numbers: with the plan of its own.
+  // It begins with a simulation at its start, which is left unchanged. If that plan fails, its
+  // settings stay afterwards. Throws std::invalid_argument as the constructor does.
   Episode of(const Simulation& other) const;
 
   // Return the number of values in an action, in an observation, and of the measures.
