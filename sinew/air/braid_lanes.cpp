@@ -54,8 +54,8 @@ bool BraidLanes::sticks(int i) const {
 }
 
 double BraidLanes::exact_y(double density) const noexcept {
-  const double ratio = density * inverse_reference_density_;
-  return table_ ? (*table_)(ratio) : units::power(ratio, air_.polytropic_exponent / 7.0);
+  if (table_) return (*table_)(density * inverse_reference_density_);
+  return exact_root(density, inverse_reference_density_, series_.exponent());
 }
 
 int BraidLanes::update_references(const double* drift, double* y_ref,

@@ -37,6 +37,8 @@ class BraidLanes {
   int padded() const { return padded_; }  // rounded up to whole lanes, which repeat the last muscle
 
   const gas::PowerSeries& series() const { return series_; }  // y as a function of the density
+  // Returns 1 over the density at the atmosphere [m^3/kg].
+  double inverse_reference_density() const { return inverse_reference_density_; }
 
   // Selects a table for densities outside the series' range, for steps that often leave that range.
   void use_power_table() { table_.emplace(air_.polytropic_exponent / 7.0); }

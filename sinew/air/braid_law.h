@@ -49,6 +49,10 @@ struct BraidState {
   S length, rate, mass, y_ref, inverse_sigma;
 };
 
+// Returns y of a density by the power itself, for densities outside the series' range [-].
+// `inverse_reference`: 1 over the density at the atmosphere [m^3/kg].
+double exact_root(double density, double inverse_reference, double exponent) noexcept;
+
 // Returns the volume of the bundle's air [m^3].
 template <class S>
 [[gnu::always_inline]] inline S braid_volume(const BraidConstants<S>& k, const S& length) {

@@ -2,9 +2,10 @@
 // supply: the law of network.h with a pack in the place of each number, and the muscles one after
 // the other. Each machine has the same bits as alone.
 //
-// Valves, commands and failures are handled by each machine's own network, whose valves supply the
-// open shares until the next node. Rare operations of a lane (a power, the sealed stiffness) are
-// also done by its own network.
+// Valves and commands are handled by each machine alone, whose valves supply the open shares until
+// the next node. The friction of muscles that is bounded by their sealed stiffness is computed by
+// each machine's own network; one machine alone (W = 1) cannot have such muscles, and has no
+// pointer: it is copied as bytes.
 //
 // An evaluation has three loops over the muscles (y, pulls, flows): each is short, so that the
 // processor overlaps the divisions and roots of several muscles.
@@ -23,6 +24,23 @@
 #include "sinew/units/stages.h"
 
 namespace sinew::air {
+
+// The networks of machines with muscles whose friction is bounded by their sealed stiffness.
+template <int Most, int W>
+struct SealedBounds {
+  std::array<const AirNetwork<Most>*, W> each;
+
+  // Returns the bound of muscle i of the machine in a lane [N].
+  double operator()(int lane, int i, double length, double pressure) const noexcept {
+    return each[static_cast<std::size_t>(lane)]->braids().sealed_bound(i, length, pressure);
+  }
+};
+template <int Most>
+struct SealedBounds<Most, 1> {
+  std::array<const AirNetwork<Most>*, 0> each = {};
+  constexpr explicit SealedBounds(const std::array<const AirNetwork<Most>*, 1>&) {}
+  constexpr double operator()(int, int, double, double) const noexcept { return 0; }
+};
 
 template <int Most, int W>
 class PlainAir {
@@ -53,16 +71,25 @@ class PlainAir {
     Lanes inflow, outflow;  // supply to muscle, muscle to atmosphere [kg/s]
   };
 
-  // All networks must be plain (AirNetwork::stays_plain), have the same number of muscles and
-  // outlive this object.
+  // All networks must be plain (AirNetwork::stays_plain) and have the same number of muscles.
+  // Several must outlive this object; a single one may not have_sealed_bounds().
   explicit PlainAir(const std::array<const Network*, W>& each);
 
   // Returns the number of muscles of each machine.
   int muscles() const noexcept { return size_; }
 
-  // State of one muscle of one machine shortly after its node.
+  // Returns whether the friction of a muscle is bounded by its sealed stiffness.
+  static bool has_sealed_bounds(const Network& network) {
+    for (int i = 0; i < network.muscles(); ++i)
+      if (network.braids().bound_by_sealed(i)) return true;
+    return false;
+  }
+
+  // State of one muscle of one machine shortly after its node, and the masses that have passed its
+  // valves since the start.
   struct MusclePreview {
     double pressure, tension;  // [Pa], [N]
+    double mass, in, out;      // [kg]
   };
   // Returns muscle i of the machine in a lane at h after its node by Heun's rule, as the preview of
   // world.h but for this muscle alone. Length and rate are those at that time.
@@ -123,14 +150,16 @@ class PlainAir {
   double root(int lane, int i, const BraidState<double>& at) const noexcept;
   void far_roots(const S& x, const S& inverse_sigma, S& y) const noexcept;
   void finish_friction(int i, const S& length, const S& rate, BraidPull<S>& pull) const noexcept;
-  double sealed_bound(int lane, int i, double length, double pressure) const noexcept {
-    return each_[static_cast<std::size_t>(lane)]->braids().sealed_bound(i, length, pressure);
+  // Returns y of a density of the machine in a lane.
+  double exact_y(std::size_t lane, double density) const noexcept {
+    const Alone& of = alone_[lane];
+    return exact_root(density, of.inverse_reference_density, of.series.exponent());
   }
   template <class T, class M>
   static void apply_sliding_friction(const M& loose, const T& rate, BraidPull<T>& pull);
 
   int size_ = 0;
-  std::array<const Network*, W> each_;
+  SealedBounds<Most, W> sealed_bound_;
   // Values that the muscles of a machine have in common.
   gas::PowerSeriesOf<S> series_;
   S atmosphere_ = 0, supply_y_ = 0;
@@ -138,12 +167,17 @@ class PlainAir {
   std::array<Mask, Most> sealed_, loose_;    // bounded by the sealed stiffness; does not stick
   std::array<bool, Most> is_rare_friction_;  // either of them, for any machine
   // The constants of each machine alone.
-  std::array<std::array<Cell<double>, Most>, W> alone_;
+  struct Alone {
+    gas::PowerSeries series;
+    double atmosphere, supply_y, inverse_reference_density;  // [Pa], [-], [m^3/kg]
+    std::array<Cell<double>, Most> cell;
+  };
+  std::array<Alone, W> alone_;
 };
 
 template <int Most, int W>
 PlainAir<Most, W>::PlainAir(const std::array<const Network*, W>& each)
-    : size_(each[0]->muscles()), each_(each) {
+    : size_(each[0]->muscles()), sealed_bound_{each} {
   std::array<Cell<double>, W> each_cell;
   S exponent;
   for (std::size_t k = 0; k < W; ++k) {
@@ -151,6 +185,11 @@ PlainAir<Most, W>::PlainAir(const std::array<const Network*, W>& each)
     exponent.set(lane, each[k]->braids().series().exponent());
     atmosphere_.set(lane, each[k]->atmosphere());
     supply_y_.set(lane, each[k]->supply_y());
+    alone_[k] = {.series = each[k]->braids().series(),
+                 .atmosphere = each[k]->atmosphere(),
+                 .supply_y = each[k]->supply_y(),
+                 .inverse_reference_density = each[k]->braids().inverse_reference_density(),
+                 .cell = {}};
   }
   series_ = gas::PowerSeriesOf<S>(exponent);
 
@@ -159,8 +198,8 @@ PlainAir<Most, W>::PlainAir(const std::array<const Network*, W>& each)
     for (std::size_t k = 0; k < W; ++k) {
       const int lane = static_cast<int>(k);
       const BraidLanes& laws = each[k]->braids();
-      alone_[k][m] = {laws.constants(i), each[k]->flow(2 * i), each[k]->flow(2 * i + 1)};
-      each_cell[k] = alone_[k][m];
+      each_cell[k] = {laws.constants(i), each[k]->flow(2 * i), each[k]->flow(2 * i + 1)};
+      alone_[k].cell[m] = each_cell[k];
       sealed_[m].set(lane, laws.bound_by_sealed(i));
       loose_[m].set(lane, !laws.sticks(i));
     }
@@ -198,7 +237,7 @@ void PlainAir<Most, W>::set_shares(int lane, int muscle, double inlet, double ex
   shares.exhaust[muscle].set(lane, exhaust);
   shares.fills[m] = inlet > 0 ? shares.fills[m] | bit : shares.fills[m] & ~bit;
   shares.empties[m] = exhaust > 0 ? shares.empties[m] | bit : shares.empties[m] & ~bit;
-  const Cell<double>& cell = alone_[static_cast<std::size_t>(lane)][m];
+  const Cell<double>& cell = alone_[static_cast<std::size_t>(lane)].cell[m];
   units::put_lane(inlet > 0 ? cell.inlet : cell.exhaust, lane, shares.open[m]);
 }
 
@@ -271,9 +310,9 @@ template <int Most, int W>
 double PlainAir<Most, W>::root(int lane, int i, const BraidState<double>& at) const noexcept {
   const auto k = static_cast<std::size_t>(lane), m = static_cast<std::size_t>(i);
   double x, y;
-  braid_root(alone_[k][m].braid, at, each_[k]->braids().series(), x, y);
+  braid_root(alone_[k].cell[m].braid, at, alone_[k].series, x, y);
   const bool outside = x > gas::PowerSeries::reach || x < -gas::PowerSeries::reach;
-  return outside ? each_[k]->braids().exact_y((x + 1.0) / at.inverse_sigma) : y;
+  return outside ? exact_y(k, (x + 1.0) / at.inverse_sigma) : y;
 }
 
 template <int Most, int W>
@@ -281,7 +320,9 @@ auto PlainAir<Most, W>::preview(int lane, int i, double length, double rate, dou
                                 const State& state, const Shares& shares, const Memory& memory,
                                 const Evaluation& at_node) const noexcept -> MusclePreview {
   const auto k = static_cast<std::size_t>(lane), m = static_cast<std::size_t>(i);
-  const Cell<double>& cell = alone_[k][m];
+  const Alone& alone = alone_[k];
+  const Cell<double>& cell = alone.cell[m];
+  double in_total = state.in[i][lane], out_total = state.out[i][lane];
   BraidState<double> at{length, rate, state.mass[i][lane], memory.y[i][lane],
                         memory.inverse_sigma[i][lane]};
   const double inlet = shares.inlet[i][lane], exhaust = shares.exhaust[i][lane];
@@ -290,16 +331,18 @@ auto PlainAir<Most, W>::preview(int lane, int i, double length, double rate, dou
     const double in = at_node.inflow[i][lane], out = at_node.outflow[i][lane];
     at.mass = mass + h * (in - out);
     const double y = root(lane, i, at);
-    const double then_in =
-        inlet > 0 ? inlet * gas::flow_y(cell.inlet, each_[k]->supply_y(), y) : 0.0;
+    const double then_in = inlet > 0 ? inlet * gas::flow_y(cell.inlet, alone.supply_y, y) : 0.0;
     const double then_out = exhaust > 0 ? exhaust * gas::flow_y(cell.exhaust, y, 1.0) : 0.0;
-    at.mass = mass + (half * (in + then_in) - half * (out + then_out));
+    const double came = half * (in + then_in), went = half * (out + then_out);
+    at.mass = mass + (came - went);
+    in_total += came;
+    out_total += went;
   }
   BraidPull<double> pull =
-      braid_pull(cell.braid, each_[k]->atmosphere(), length, rate, root(lane, i, at));
-  if (sealed_[m][lane]) pull.friction_bound = sealed_bound(lane, i, length, pull.pressure);
+      braid_pull(cell.braid, alone.atmosphere, length, rate, root(lane, i, at));
+  if (sealed_[m][lane]) pull.friction_bound = sealed_bound_(lane, i, length, pull.pressure);
   apply_sliding_friction(loose_[m][lane], rate, pull);
-  return {pull.pressure, pull.tension};
+  return {pull.pressure, pull.tension, at.mass, in_total, out_total};
 }
 
 // Writes y of the machines whose density is outside the series' range.
@@ -309,7 +352,7 @@ void PlainAir<Most, W>::far_roots(const S& x, const S& inverse_sigma, S& y) cons
   if (!units::any(outside)) return;
   const S density = (x + 1.0) / inverse_sigma;
   for (int k = 0; k < W; ++k)
-    if (outside[k]) y.set(k, each_[static_cast<std::size_t>(k)]->braids().exact_y(density[k]));
+    if (outside[k]) y.set(k, exact_y(static_cast<std::size_t>(k), density[k]));
 }
 
 // Completes the friction for Loss::Scale::sealed, and with sign(v), [33] as printed, for
@@ -319,7 +362,7 @@ void PlainAir<Most, W>::finish_friction(int i, const S& length, const S& rate,
                                         BraidPull<S>& pull) const noexcept {
   const auto m = static_cast<std::size_t>(i);
   for (int k = 0; k < W; ++k)
-    if (sealed_[m][k]) pull.friction_bound.set(k, sealed_bound(k, i, length[k], pull.pressure[k]));
+    if (sealed_[m][k]) pull.friction_bound.set(k, sealed_bound_(k, i, length[k], pull.pressure[k]));
   apply_sliding_friction(loose_[m], rate, pull);
 }
 
@@ -349,7 +392,7 @@ std::array<int, W> PlainAir<Most, W>::update_memory(const Mask& where, const Eva
       const int lane = static_cast<int>(k);
       if (!follows[lane]) continue;
       if (!is_density(density[lane]) && failed[k] < 0) failed[k] = i;
-      memory.y[i].set(lane, each_[k]->braids().exact_y(density[lane]));
+      memory.y[i].set(lane, exact_y(k, density[lane]));
     }
     memory.inverse_sigma[i] = units::select(follows, inverse, memory.inverse_sigma[i]);
   }

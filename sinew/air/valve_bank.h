@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "sinew/air/fault.h"
+#include "sinew/air/shutters.h"
 #include "sinew/air/state.h"
 #include "sinew/air/stiff/quick.h"
 #include "sinew/gas/air.h"
@@ -23,8 +24,6 @@
 #include "sinew/signals/port.h"
 
 namespace sinew::air {
-
-inline constexpr double never = std::numeric_limits<double>::infinity();
 
 // Returns whether the valve is a regulator, which follows a set point.
 inline bool regulates(const gas::Valve& valve) { return valve.kind == gas::Valve::Kind::regulator; }
@@ -52,6 +51,9 @@ class ValveBank {
   // Returns all valves without current, settled, and all set points at the atmosphere's pressure.
   Valves valves_at_rest() const;
 
+  // Returns the law of a valve that is open or shut.
+  const ShutterLaw& shutter_law(int index) const noexcept { return tap(index).shutter; }
+
   // Returns the open share of the valve's area at t [-].
   double open_share(int valve, double t, const Valves& valves) const noexcept;
 
@@ -62,6 +64,7 @@ class ValveBank {
   struct Tap {
     gas::Valve valve;
     gas::FlowConstants flow;
+    ShutterLaw shutter;
     int outlet = none;    // Kind::regulator: index of the state of its outlet pressure
     bool listed = false;  // its flow depends on the open share alone
   };
@@ -139,15 +142,10 @@ class ValveBank {
   bool ramping_ = false;
 
  private:
-  // Returns the next instant at which a valve or its set point changes, or infinity [s].
-  static double next_of(const typename Valves::Valve& valve) noexcept {
-    return std::min(valve.shutter.next(), valve.next_set_at);
+  double fraction(std::size_t v, double t, const Valves& valves) const noexcept {
+    return shutter_fraction(taps_[v].shutter.opposite, v, t, valves);
   }
-  double fraction(std::size_t valve, double t, const Valves& valves) const noexcept;
-  void find_next_change(Valves& valves) const noexcept;
   void refresh(double t, Valves& valves) const noexcept;
-  void move_shutters(double t, Valves& valves) const noexcept;
-  static void add_open(std::size_t v, Valves& valves) noexcept;
   template <class Difference>
   void change(const AirFault& fault, bool begins, double t, const Difference& difference,
               Valves& valves) const noexcept;
@@ -161,7 +159,9 @@ class ValveBank {
 
 template <int Most>
 void ValveBank<Most>::add_tap(const gas::Valve& valve) {
-  taps_.push_back({.valve = valve, .flow = gas::flow_constants(valve.flow, air_)});
+  taps_.push_back({.valve = valve,
+                   .flow = gas::flow_constants(valve.flow, air_),
+                   .shutter = air::shutter_law(valve, taps_.size())});
   ramping_ = ramping_ || valve.profile == gas::Valve::Profile::ramp;
   only_shutters_ = faults_.empty() && !ramping_ && only_shutters_ && !regulates(valve);
 }
@@ -190,56 +190,19 @@ void ValveBank<Most>::command(const signals::Edge& edge, double t, double differ
     valves[i].next_set = gas::set_point(v.regulator, share, air_.atmosphere);
     valves[i].next_set_at = t;
   } else {
-    // A 3-way valve has one coil.
-    if (v.kind == gas::Valve::Kind::three_way && i % 2 == 1) return;
-    if (edge.open && v.fails_above > 0 && difference > v.fails_above)
-      return;  // its end will then have no effect
-    valves[i].shutter.electrical(t, edge.open, gas::delay_at(v, edge.open, difference));
+    if (!command_shutter(taps_[i].shutter, t, edge.open, difference, valves[i].shutter)) return;
   }
-  const double before = valves.next_of[i], after = next_of(valves[i]);
-  valves.next_of[i] = after;
-  // A command can also cancel the next change of all; only then all valves are searched.
-  if (after <= valves.next_change)
-    valves.next_change = after;
-  else if (before <= valves.next_change)
-    find_next_change(valves);
-}
-
-template <int Most>
-void ValveBank<Most>::find_next_change(Valves& valves) const noexcept {
-  double next = faults_.next(valves.faults);
-  for (std::size_t v = 0; v < taps_.size(); ++v) next = std::min(next, valves.next_of[v]);
-  valves.next_change = next;
-}
-
-// Moves valves without faults whose shutters jump. A command can also have moved a shutter back, so
-// all shares are renewed.
-template <int Most>
-void ValveBank<Most>::move_shutters(double t, Valves& valves) const noexcept {
-  valves.open_count = 0;
-  for (std::size_t v = 0; v < taps_.size(); ++v) {
-    typename Valves::Valve& valve = valves[v];
-    if (valves.next_of[v] <= t) {
-      valve.shutter.advance(t);
-      valves.next_of[v] = next_of(valve);
-    }
-    valve.share = air::open_share(0.0, fraction(v, t, valves));
-    if (valve.share > 0) add_open(v, valves);
-  }
-  find_next_change(valves);
-}
-
-// Adds a valve to the list of those that pass air.
-template <int Most>
-void ValveBank<Most>::add_open(std::size_t v, Valves& valves) noexcept {
-  const auto n = static_cast<std::size_t>(valves.open_count++);
-  valves.open[n] = {static_cast<int>(v), valves[v].share};
+  note_command(
+      i, taps_.size(), [&] { return faults_.next(valves.faults); }, valves);
 }
 
 template <int Most>
 template <class Difference>
 void ValveBank<Most>::move(double t, const Difference& difference, Valves& valves) const noexcept {
-  if (only_shutters_) return move_shutters(t, valves);
+  if (only_shutters_)
+    return move_shutters(
+        t, taps_.size(), [&](std::size_t v) -> const ShutterLaw& { return taps_[v].shutter; },
+        valves);
   for (std::size_t v = 0; v < taps_.size(); ++v) {
     typename Valves::Valve& valve = valves[v];
     valve.shutter.advance(t);
@@ -252,15 +215,6 @@ void ValveBank<Most>::move(double t, const Difference& difference, Valves& valve
     change(f, begins, t, difference, valves);
   });
   refresh(t, valves);
-}
-
-// Returns the open share of a valve's area with a tight seat: the shutter's share, or for the
-// second entry of a 3-way valve the rest, since it opens to the atmosphere when it leaves the
-// supply.
-template <int Most>
-double ValveBank<Most>::fraction(std::size_t v, double t, const Valves& valves) const noexcept {
-  const bool other_way = v % 2 == 1 && taps_[v].valve.kind == gas::Valve::Kind::three_way;
-  return other_way ? 1.0 - valves[v - 1].shutter.fraction(t) : valves[v].shutter.fraction(t);
 }
 
 // Updates the open shares after a change. A regulator is always open.
@@ -277,7 +231,7 @@ void ValveBank<Most>::refresh(double t, Valves& valves) const noexcept {
   }
   valves.leaking = let_through(valves.faults);
   valves.broken = is_broken(valves.faults);
-  find_next_change(valves);
+  find_next_change(taps_.size(), faults_.next(valves.faults), valves);
 }
 
 template <int Most>

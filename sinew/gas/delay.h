@@ -46,12 +46,26 @@ constexpr Delays delays(const Valve& valve) {
   return {valve.opening_delay, valve.closing_delay};
 }
 
-// Returns delay(dp); dp is positive from the higher side as the valve is built in [s].
-constexpr double delay_at(const Valve& valve, bool open, double pressure_difference) {
-  const Delays d = delays(valve);
-  const double slope = open ? valve.opening_delay_slope : valve.closing_delay_slope;
-  const double delay = (open ? d.opening : d.closing) + slope * pressure_difference;
+// The delays of a valve, with their slopes over the pressure difference.
+struct DelayLaw {
+  Delays at_zero;                               // [s]
+  double opening_slope = 0, closing_slope = 0;  // [s/Pa]
+};
+
+// Returns the delays of the valve's drive.
+constexpr DelayLaw delay_law(const Valve& valve) {
+  return {delays(valve), valve.opening_delay_slope, valve.closing_delay_slope};
+}
+
+// Return delay(dp); dp is positive from the higher side as the valve is built in [s].
+constexpr double delay_at(const DelayLaw& law, bool open, double pressure_difference) {
+  const double slope = open ? law.opening_slope : law.closing_slope;
+  const double delay =
+      (open ? law.at_zero.opening : law.at_zero.closing) + slope * pressure_difference;
   return delay > 0 ? delay : 0.0;
+}
+constexpr double delay_at(const Valve& valve, bool open, double pressure_difference) {
+  return delay_at(delay_law(valve), open, pressure_difference);
 }
 
 // Position of a valve's shutter and its pending changes.

@@ -16,6 +16,8 @@ double noise(std::uint64_t seed, int sensor, signals::Tick tick);
 // A sensor's conversion, with its constants.
 class SensorCounts {
  public:
+  // A fixed source of 0.
+  SensorCounts() = default;
   SensorCounts(const Sensor& sensor, const Converter& converter)
       : at_rest_(sensor.at_rest),
         noise_(sensor.noise),
@@ -42,10 +44,10 @@ class SensorCounts {
   }
 
  private:
-  double at_rest_, noise_;  // [count]
-  double scale_;            // as the sensor's
-  double counts_per_volt_, top_;
-  bool divides_, constant_;
+  double at_rest_ = 0, noise_ = 0;  // [count]
+  double scale_ = 1;                // as the sensor's
+  double counts_per_volt_ = 0, top_ = 0;
+  bool divides_ = false, constant_ = true;
 };
 
 // Returns the counts of a sensor that is converted once.

@@ -16,9 +16,9 @@
 // All functions are always inlined, also without optimisation: the calling convention of a wide
 // vector depends on the instruction set that a function is compiled for.
 //
-// Packs are vectors of GCC and Clang: two lanes are native to every x86-64, four to AVX2, eight to
-// AVX-512. If a pack is wider than the registers, GCC splits comparisons lane by lane: correct and
-// slow.
+// Packs are vectors of GCC and Clang: one lane is a number, for code that takes packs; two lanes
+// are native to every x86-64, four to AVX2, eight to AVX-512. If a pack is wider than the
+// registers, GCC splits comparisons lane by lane: correct and slow.
 #pragma once
 
 #include <array>
@@ -54,6 +54,11 @@ namespace detail {
 
 template <int W>
 struct Vector;
+template <>
+struct Vector<1> {
+  using Doubles = double __attribute__((vector_size(8)));
+  using Bits = std::int64_t __attribute__((vector_size(8)));
+};
 template <>
 struct Vector<2> {
   using Doubles = double __attribute__((vector_size(16)));

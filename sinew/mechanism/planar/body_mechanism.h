@@ -460,7 +460,7 @@ void BodyMechanism<N, D, M>::write_roller_loads(const Body<N>& body, const Motio
     if (constants_.attachment[i] != 0)
       h.torque += constants_.attachment[i] * carried(body, m, a, i, out);
   }
-  const RollerLoads loads = roller_loads(robot_, h);
+  const RollerLoads loads = roller_loads(RollerModel(robot_), h);
   out.roller_front = loads.front;
   out.roller_rear = loads.rear;
 }

@@ -524,7 +524,9 @@ class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N
 
   // Takes a machine that is such a chain (chain_body.h).
   explicit ChainMechanism(const Setup& setup)
-      : Equations(chain_model_of<N>(setup), chain_routing_of(setup.robot)), robot_(setup.robot) {
+      : Equations(chain_model_of<N>(setup), chain_routing_of(setup.robot)),
+        rollers_(setup.robot),
+        hung_(robot::leg_mass(setup.robot) + setup.robot.cylinder.body_mass) {
     double absolute = 0;
     for (int j = 0; j < N; ++j)
       start_.angle[j] = absolute += setup.start.joint_angle[static_cast<std::size_t>(j)];
@@ -581,7 +583,7 @@ class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N
     out.foot[0].y = at.ankle_y;
     out.foot[0].force_x = at.normal > 0 ? held[Contacts<N>::foot] : 0.0;
     out.foot[0].force_y = out.disc_force[0] = at.normal;
-    if (robot_.rollers.present) write_roller_loads(chain, pose, a, held, out);
+    if (rollers_.rollers.present) write_roller_loads(chain, pose, a, held, out);
   }
 
  private:
@@ -589,21 +591,21 @@ class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N
   // force.
   void write_roller_loads(const Chain<N>& chain, const Motion& pose, const Acceleration& a,
                           const Forces& held, Truth& out) const noexcept {
-    const double hung = robot::leg_mass(robot_) + robot_.cylinder.body_mass;
     TrolleyReaction h{.acceleration = a.x};
-    h.force_x = hung * a.x - out.foot[0].force_x;
-    h.force_y = hung * model_.chain.gravity - out.foot[0].force_y;
+    h.force_x = hung_ * a.x - out.foot[0].force_x;
+    h.force_y = hung_ * model_.chain.gravity - out.foot[0].force_y;
     for (int i = 0; i < N; ++i)
       h.add(model_.chain.first_moment[i], chain.sin(i), chain.cos(i), pose.rate[i], a.angle[i]);
     h.torque = out.torque[0] - model_.damping[0] * pose.rate[0] -
                model_.spring[0] * (pose.angle[0] - model_.spring_angle[0]) +
                model_.stop[0].torque(pose.angle[0], pose.rate[0]) + held[0];
-    const RollerLoads loads = roller_loads(robot_, h);
+    const RollerLoads loads = roller_loads(rollers_, h);
     out.roller_front = loads.front;
     out.roller_rear = loads.rear;
   }
 
-  robot::Robot robot_;
+  RollerModel rollers_;
+  double hung_ = 0;  // mass below the trolley [kg]
   Motion start_{};
 };
 

@@ -175,11 +175,23 @@ struct RollerLoads {
   double front = 0, rear = 0;  // [N], up > 0
 };
 
+// The trolley's rollers, with the mass that they carry directly.
+struct RollerModel {
+  robot::Rollers rollers;
+  double own_mass = 0, gravity = 0;  // trolley with its payload [kg], [m/s^2]
+
+  RollerModel() = default;
+  explicit RollerModel(const robot::Robot& robot)
+      : rollers(robot.rollers),
+        own_mass(robot::trolley_own_mass(robot) + robot.trolley.payload),
+        gravity(robot.gravity) {}
+};
+
 // Returns the loads of both rollers.
-inline RollerLoads roller_loads(const robot::Robot& robot, const TrolleyReaction& reaction) {
-  const robot::Rollers& r = robot.rollers;
-  const double own = robot::trolley_own_mass(robot) + robot.trolley.payload;
-  const double g = robot.gravity, carriage = own - r.counterweight;
+inline RollerLoads roller_loads(const RollerModel& model, const TrolleyReaction& reaction) {
+  const robot::Rollers& r = model.rollers;
+  const double own = model.own_mass;
+  const double g = model.gravity, carriage = own - r.counterweight;
   const double track = own * reaction.acceleration + reaction.force_x;
 
   const double sum = own * g + reaction.force_y;

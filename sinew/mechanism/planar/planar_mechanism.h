@@ -14,13 +14,24 @@
 
 namespace sinew::plant {
 
-// Sensor readings of a planar machine, and its true values, from previews of world.h.
-class PlanarSenses {
+// A sensor of a planar machine.
+struct SensorSource {
+  robot::SensorCounts counts;
+  robot::Sensor::Kind kind = robot::Sensor::Kind::fixed;
+  int of = -1;      // its joint or muscle; -1: none
+  double rest = 0;  // rest angle of the joint [rad]
+};
+
+// Sensor readings of a planar machine, and its true values, from previews of world.h. Sources is a
+// list of its sensors by channel.
+template <class Sources>
+class PlanarSensesOf {
  public:
   using Truth = plant::Truth;
 
   // Finds the joint or muscle of each sensor.
-  explicit PlanarSenses(const Setup& setup) : atmosphere_(setup.air.atmosphere), seed_(setup.seed) {
+  explicit PlanarSensesOf(const Setup& setup)
+      : atmosphere_(setup.air.atmosphere), seed_(setup.seed) {
     using Kind = robot::Sensor::Kind;
     const robot::Robot& robot = setup.robot;
     for (const robot::Sensor& sensor : robot.sensors) {
@@ -95,7 +106,7 @@ class PlanarSenses {
       out.cylinder_out[k] = account.out;
     }
     const auto& g = world.step_preview();
-    mechanism.write_truth(p.state.motion, g.acceleration, g.held, world.state().first.load, out);
+    mechanism.write_truth(p.state.motion, g.acceleration, g.held, world.load(), out);
     return out;
   }
 
@@ -116,16 +127,12 @@ class PlanarSenses {
     return f < 0 ? 0.0 : f;  // a NaN stays a NaN
   }
 
-  struct Source {
-    robot::SensorCounts counts;
-    robot::Sensor::Kind kind;
-    int of;       // its joint or muscle; -1: none
-    double rest;  // rest angle of the joint [rad]
-  };
-  std::vector<Source> sensors_;  // per channel
-  double atmosphere_ = 0;        // [Pa]
+  Sources sensors_;
+  double atmosphere_ = 0;  // [Pa]
   std::uint64_t seed_ = 1;
 };
+
+using PlanarSenses = PlanarSensesOf<std::vector<SensorSource>>;
 
 // Common parts for at most M muscles.
 template <int M>

@@ -41,6 +41,7 @@
 #include "sinew/world/kernel/contract.h"
 #include "sinew/world/kernel/cut.h"
 #include "sinew/world/kernel/nodes.h"
+#include "sinew/world/kernel/reading.h"
 
 namespace sinew::plant {
 
@@ -175,6 +176,7 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   const Air& air() const noexcept { return air_; }
   const Senses& senses() const noexcept { return senses_; }
   const auto& arms() const noexcept { return state_.first.arms; }
+  const auto& load() const noexcept { return state_.first.load; }  // at the last node
   // Return the bounds of dry friction at the last node: of a muscle's mesh [N], and of a contact.
   template <WholeSteps = Mechanism>
   double friction_bound(int muscle) const noexcept {
@@ -255,20 +257,6 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   Senses senses_;
   std::array<signals::Tick, 256> lag_{};  // per channel, from the start of a conversion to its read
 };
-
-// Returns the reading of a conversion that began at the tick `sampled`. The machine provides
-// failure(), ended() and the functions that its senses call.
-template <class Machine, class Senses>
-signals::Reading reading(Machine& machine, const Senses& senses, signals::Channel channel,
-                         signals::Tick sampled) noexcept {
-  if (channel.index >= senses.channels()) return {0, signals::Status::invalid};
-  const double t = static_cast<double>(sampled) * signals::tick_seconds;
-  const double value = senses.quantity(machine, channel.index, t);
-  // A state that is not finite stays so: every later reading reports the fault, too.
-  if (machine.failure() || !std::isfinite(value)) return {0, signals::Status::fault};
-  return {senses.counts(channel.index, value, sampled),
-          machine.ended() ? signals::Status::ended : signals::Status::ok};
-}
 
 template <IsMechanism M, IsAirOf<M> A>
 World<M, A>::World(const Setup& setup)

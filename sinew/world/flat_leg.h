@@ -1,0 +1,130 @@
+// world/flat_leg.h - a plain leg as one block of bytes: its model, its state and all that it
+// computes with, without a pointer. It is copied as bytes, also to a graphics card (run/card), and
+// has the same bits as a World.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+
+#include "sinew/air/shutters.h"
+#include "sinew/signals/short_list.h"
+#include "sinew/world/chain_lanes.h"
+
+namespace sinew::plant {
+
+// What a plain chain has in addition to its lane (lane_events.h): its only lane is 0.
+template <int N>
+class FlatMachine {
+ public:
+  static constexpr std::size_t most_sensors = 32, most_valves = 2 * chain_muscles + 4;
+
+  // Takes a machine at its start.
+  FlatMachine(const ChainWorld<N>& world, const Setup& setup)
+      : mechanism_(world.mechanism()),
+        senses_(setup),
+        valves_(world.state().valves),
+        supply_(world.air().supply_state(world.state().now.air, world.state().first.air)),
+        atmosphere_(setup.air.atmosphere) {
+    for (int v = 0; v < world.air().valves(); ++v) laws_.push_back(world.air().shutter_law(v));
+  }
+
+  const ChainMechanism<N>& mechanism(int) const noexcept { return mechanism_; }
+  const auto& senses(int) const noexcept { return senses_; }
+  signals::Tick lag(int, signals::Channel channel) const noexcept { return lag_[channel.index]; }
+  bool ended(int) const noexcept { return ended_; }
+  void end(int) noexcept { ended_ = true; }
+  void moves(int) const noexcept {}
+
+  const air::AirValves<chain_muscles>& valves(int) const noexcept { return valves_; }
+  int valve_count(int) const noexcept { return static_cast<int>(laws_.size()); }
+  void command(int, const signals::Edge& edge, double t, double pressure) noexcept {
+    const std::size_t v = edge.valve.index;
+    const double difference = v % 2 == 0 ? supply_.line - pressure : pressure - atmosphere_;
+    if (!air::command_shutter(laws_[v], t, edge.open, difference, valves_[v].shutter)) return;
+    air::note_command(
+        v, laws_.size(), [] { return air::never; }, valves_);
+  }
+  void move_valves(int, double t) noexcept {
+    if (valves_.next_change > t) return;
+    air::move_shutters(
+        t, laws_.size(), [&](std::size_t v) -> const air::ShutterLaw& { return laws_[v]; },
+        valves_);
+  }
+  air::SupplyState supply(int) const noexcept { return supply_; }
+
+  // Takes the scan; returns Status::invalid for a channel without a sensor.
+  signals::Status start(const signals::Scan& scan) noexcept {
+    for (const signals::Conversion& c : scan.conversions) {
+      if (c.channel.index >= senses_.channels()) return signals::Status::invalid;
+      lag_[c.channel.index] = static_cast<std::uint16_t>(c.read - c.start);
+    }
+    return signals::Status::ok;
+  }
+
+ private:
+  ChainMechanism<N> mechanism_;
+  PlanarSensesOf<signals::ShortList<SensorSource, most_sensors>> senses_;
+  air::AirValves<chain_muscles> valves_;
+  signals::ShortList<air::ShutterLaw, most_valves> laws_;
+  air::SupplyState supply_;
+  double atmosphere_ = 0;  // [Pa]
+  std::array<std::uint16_t, most_sensors> lag_{};
+  bool ended_ = false;
+};
+
+// A chain of N links with the functions of Port and World.
+template <int N>
+class FlatChain : public LaneEvents<N, 1, FlatMachine<N>> {
+  using Events = LaneEvents<N, 1, FlatMachine<N>>;
+
+ public:
+  // Returns whether this machine can be one.
+  static bool fits(const Setup& setup) {
+    using Machine = FlatMachine<N>;
+    if (!is_plain_chain<N>(setup) || setup.robot.sensors.size() > Machine::most_sensors)
+      return false;
+    for (const air::Muscle& muscle : setup.muscles)
+      if (muscle.actuator.loss.coulomb_scale == actuator::Loss::Scale::sealed) return false;
+    return true;
+  }
+
+  // Takes a machine at its start, which fits().
+  explicit FlatChain(const Setup& setup)
+      : FlatChain(*std::make_unique<const ChainWorld<N>>(setup), setup) {}
+
+  signals::Status start(const signals::Scan& scan) noexcept { return this->machines_.start(scan); }
+  signals::Status drive(const signals::Edge& edge) noexcept { return Events::drive(0, edge); }
+  signals::Reading read(signals::Channel channel, signals::Tick now) noexcept {
+    return Events::read(0, channel, now);
+  }
+  signals::Status stop(signals::Tick) noexcept { return Events::stop(0); }
+  Truth truth(double t) noexcept { return Events::truth(0, t); }
+  void advance(double t) noexcept { Events::advance(0, t); }
+  const air::Failure& failure() const noexcept { return Events::failure(0); }
+  std::int64_t nodes() const noexcept { return Events::nodes(0); }
+
+  // Returns whether it has nodes to commit up to an instant [s]; commits the next node.
+  bool waits(double until) const noexcept { return Events::waits(0, until); }
+  void commit_next() noexcept { this->commit(this->only(0)); }
+
+ private:
+  FlatChain(const ChainWorld<N>& world, const Setup& setup)
+      : Events(
+            FlatMachine<N>(world, setup),
+            [](const FlatMachine<N>& machine) {
+              return side_by_side(std::array<const ChainBody<N>*, 1>{&machine.mechanism(0)});
+            },
+            [&](const FlatMachine<N>&) {
+              return typename Events::Integrated::Air(
+                  std::array<const air::AirNetwork<chain_muscles>*, 1>{&world.air()});
+            }) {
+    this->take(0, world.state(), world.body_step());
+  }
+};
+
+using FlatLeg = FlatChain<2>;
+static_assert(std::is_trivially_copyable_v<FlatLeg>);
+
+}  // namespace sinew::plant
