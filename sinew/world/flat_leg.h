@@ -82,8 +82,7 @@ class FlatChain : public LaneEvents<N, 1, FlatMachine<N>> {
  public:
   // Returns whether this machine can be one.
   static bool fits(const Setup& setup) {
-    using Machine = FlatMachine<N>;
-    if (!is_plain_chain<N>(setup) || setup.robot.sensors.size() > Machine::most_sensors)
+    if (!is_plain_chain<N>(setup) || setup.robot.sensors.size() > FlatMachine<N>::most_sensors)
       return false;
     for (const air::Muscle& muscle : setup.muscles)
       if (muscle.actuator.loss.coulomb_scale == actuator::Loss::Scale::sealed) return false;

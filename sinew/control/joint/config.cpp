@@ -1,5 +1,7 @@
 #include "sinew/control/joint/config.h"
 
+#include "sinew/control/joint/laws.h"
+
 namespace sinew::control {
 namespace {
 
@@ -28,8 +30,6 @@ const char* problem_of_scan(const JointControllerConfig& config) noexcept {
   }
   return nullptr;
 }
-
-bool within(float x, float limit) noexcept { return x >= -limit && x <= limit; }
 
 const char* problem_of_muscle(const MuscleConfig& muscle, JointKind kind) noexcept {
   if (muscle.free_length < 0 || muscle.free_length > max_length) return "free_length out of range";

@@ -125,6 +125,9 @@ inline constexpr float gain_limit = 1e6f;           // very small machines need 
 inline constexpr float stiffness_limit = 1e6f;      // [lbf in/rad]
 inline constexpr std::int32_t angle_limit = 32767;  // [count]
 
+// Returns whether x is within the limit; false for NaN.
+constexpr bool within(float x, float limit) noexcept { return x >= -limit && x <= limit; }
+
 // Returns U_k of [58].
 constexpr Exact stiffness_law(float gain, float desired, float actual) noexcept {
   return clamped(gain, gain_limit) *

@@ -19,9 +19,6 @@ std::int32_t shown(std::uint32_t limit) noexcept {
 
 std::int32_t distance(std::int32_t a, std::int32_t b) noexcept { return a < b ? b - a : a - b; }
 
-// Returns whether x is within the limit; false for NaN.
-bool within(float x, float limit) noexcept { return x >= -limit && x <= limit; }
-
 bool within(std::int32_t x, std::int32_t low, std::int32_t high) noexcept {
   return x >= low && x <= high;
 }

@@ -11,49 +11,6 @@ using signals::Conversion;
 using signals::Edge;
 using signals::Tick;
 
-static_assert(std::is_trivially_copyable_v<control::Supervisor>);
-
-// --- one board ---
-
-Board::Board(const control::Board& board)
-    : supervisor(board.joint_controller, board.limits),
-      joint_(board.joint),
-      channel_(board.channel),
-      valve_(board.valve) {
-  for (std::size_t i = 0; i < board.joint_controller.conversions; ++i) {
-    Conversion c = board.joint_controller.conversion[i];
-    c.channel.index = channel_[c.channel.index];
-    conversion_.push_back(c);
-  }
-}
-
-std::span<const Edge> Board::edges(Tick t) noexcept {
-  const std::span<const Edge> decided = supervisor.edges(t);
-  for (std::size_t i = 0; i < decided.size(); ++i) {
-    out_[i] = decided[i];
-    out_[i].valve.index = valve_[decided[i].valve.index];
-  }
-  return {out_.data(), decided.size()};
-}
-
-const Conversion* Board::due(Tick t) noexcept {
-  const Conversion* its = supervisor.due(t);
-  return its ? &conversion_[static_cast<std::size_t>(its - supervisor.config().conversion.data())]
-             : nullptr;
-}
-
-void Board::take(const Conversion& conversion, signals::Reading reading, Tick t) noexcept {
-  const auto i = static_cast<std::size_t>(&conversion - conversion_.data());
-  supervisor.take(supervisor.config().conversion[i], reading, t);
-}
-
-control::Trip Board::trip() const noexcept {
-  control::Trip trip = supervised().trip;
-  if (trip.channel.index < channel_.size()) trip.channel.index = channel_[trip.channel.index];
-  if (trip.joint < joint_.size()) trip.joint = joint_[trip.joint];
-  return trip;
-}
-
 // --- view of all boards ---
 
 MachineState::MachineState(const Boards& boards) noexcept
@@ -103,7 +60,8 @@ bool MachineState::tripped() const noexcept {
 Boards::Boards(std::span<const control::Board> boards) {
   for (const control::Board& board : boards) {
     const auto b = static_cast<std::uint8_t>(boards_.size());
-    const Board& added = boards_.emplace_back(board);
+    const Board& added = boards_.emplace_back(board.joint_controller, board.limits, board.joint,
+                                              board.channel, board.valve);
     for (std::size_t i = 0; i < board.joint.size(); ++i)
       joint_[board.joint[i]] = {b, static_cast<std::uint8_t>(i)};
     for (std::size_t i = 0; i < board.channel.size(); ++i) {
@@ -117,12 +75,7 @@ Boards::Boards(std::span<const control::Board> boards) {
 }
 
 void Boards::command(const MachineCommand& command) noexcept {
-  for (Board& b : boards_) {
-    control::Command its;
-    const std::span<const std::uint8_t> joints = b.joints();
-    for (std::size_t j = 0; j < joints.size(); ++j) its.joint[j] = command[joints[j]];
-    b.supervisor.command(its);
-  }
+  for (Board& b : boards_) b.supervisor.command(b.own(command));
 }
 
 // A body must not be driven by a part of its boards, so the others follow the first one that ends.

@@ -15,59 +15,11 @@
 #include <vector>
 
 #include "sinew/control/setup/boards.h"
-#include "sinew/control/supervise/supervisor.h"
 #include "sinew/robot/robot.h"
+#include "sinew/run/controllers/board.h"
 #include "sinew/signals/port.h"
 
 namespace sinew::run {
-
-// One board behind the machine's port: its inputs and outputs have the machine's numbers.
-class Board {
- public:
-  // Creates the controller of the board.
-  explicit Board(const control::Board& board);
-
-  // Like those of control::Supervisor.
-  std::span<const signals::Edge> edges(signals::Tick t) noexcept;
-  const signals::Conversion* due(signals::Tick t) noexcept;
-  // Passes a reading to the controller. The conversion must be one that due() has returned.
-  void take(const signals::Conversion&, signals::Reading, signals::Tick t) noexcept;
-
-  // Return its scan, and the machine's numbers of its joints, channels and valves, indexed by its
-  // own.
-  std::span<const signals::Conversion> conversions() const noexcept { return conversion_; }
-  std::span<const std::uint8_t> joints() const noexcept { return joint_; }
-  std::span<const std::uint8_t> channels() const noexcept { return channel_; }
-  std::span<const std::uint8_t> valves() const noexcept { return valve_; }
-
-  // Return the state of its controller, or the last state that a remote board has reported.
-  const control::ControllerState& state() const noexcept {
-    return reported_ ? reported_->controller : supervisor.state();
-  }
-  const control::Supervised& supervised() const noexcept {
-    return reported_ ? reported_->supervised : supervisor.supervised();
-  }
-  struct ReportedState {
-    control::ControllerState controller;
-    control::Supervised supervised;
-  };
-  void show(const ReportedState& reported) noexcept { reported_ = reported; }
-  // Returns why it ended the run, with the machine's channel and joint.
-  control::Trip trip() const noexcept;
-
-  control::Supervisor supervisor;
-
- private:
-  std::vector<std::uint8_t> joint_, channel_, valve_;  // the machine's numbers, indexed by the
-                                                       // board's own
-  std::vector<signals::Conversion> conversion_;        // its scan
-  std::array<signals::Edge, 4 * control::max_joints> out_;
-  std::optional<ReportedState> reported_;
-};
-
-// The commands of all joints of the machine, in the robot's order, followed by that of the
-// cylinder; for a test stand, that of its element.
-using MachineCommand = std::array<control::JointCommand, robot::max_joints + 1>;
 
 class Boards;
 

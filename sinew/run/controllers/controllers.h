@@ -28,6 +28,7 @@ class Controllers {
     return std::visit(work, high_level_);
   }
   Boards& boards() noexcept { return boards_; }
+  const Boards& boards() const noexcept { return boards_; }
   // Return the high level of a robot, and that of a stand; nullptr if the machine is the other
   // kind.
   HighLevel* gait() noexcept { return std::get_if<HighLevel>(&high_level_); }

@@ -28,7 +28,7 @@ class Episodes::Running {
     episode_ = std::move(episode);
     simulation_ = std::move(simulation);
     bounds_.reset();
-    if (in_lane) bounds_.emplace(simulation_->controllers().scan());
+    if (in_lane) bounds_.emplace();
     begins_ = true;
   }
   void end() { simulation_.reset(); }
@@ -70,7 +70,8 @@ class Episodes::Running {
       if (acts_) episode_->act(s, action_);
       next_part_ += episode_->part();
     }
-    return bounds_->before(s.next(), false, s.controllers().drives_at(s.next()));
+    return bounds_->before(s.controllers().scan(), s.next(), false,
+                           s.controllers().drives_at(s.next()));
   }
 
   void observe(std::span<double> observed, std::span<double> measured) {

@@ -27,10 +27,7 @@ RunOptions options_of(const Lanes& lanes, const Experiment& e) {
 class Lane {
  public:
   Lane(const Experiment& e, const plant::LegLane& machine, const RunOptions& options)
-      : experiment(e),
-        simulation_(e, machine),
-        run_(simulation_, options),
-        bounds_(simulation_.controllers().scan()) {}
+      : experiment(e), simulation_(e, machine), run_(simulation_, options) {}
 
   // Visits the present tick, whose nodes are committed; returns the time to which they must be
   // committed for the next one.
@@ -40,7 +37,8 @@ class Lane {
     reached_ = true;
     const Tick t = simulation_.next();
     if (run_.ended() || t >= simulation_.last()) return plant::Batch::finished;
-    return bounds_.before(t, run_.samples(t), simulation_.controllers().drives_at(t));
+    const Controllers& controllers = simulation_.controllers();
+    return bounds_.before(controllers.scan(), t, run_.samples(t), controllers.drives_at(t));
   }
 
   Outcome finish() {

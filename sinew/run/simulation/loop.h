@@ -55,15 +55,16 @@ control::Phase phase_of(const JointController& joint_controller) noexcept {
 //         control::Supervisor, control::JointController alone; or Boards, whose each() returns
 //         boards with edges(t), due(t) and take()
 // GaitController   update(state, t) -> Command, finished()
+// Body    a signals::Port, or a machine with its functions
 // Clock   wait_until(t) -> false if late, or nothing
 // Watch   command(t), edge(e), sample(t), next(t): a recorder, which changes nothing. It may have
 //         stopped(): true ends the loop
 //
 // Runs the ticks before `until`. The result does not depend on the number of calls. Ends early if
 // the body ends or fails, or if the joint controller has shut down.
-template <class JointController, class GaitController, class Clock, class Watch>
+template <class JointController, class GaitController, class Body, class Clock, class Watch>
 void advance(LoopState& loop, JointController& joint_controller, GaitController& gait_controller,
-             signals::Port& port, Clock& clock, Watch& watch, signals::Tick until) noexcept {
+             Body& port, Clock& clock, Watch& watch, signals::Tick until) noexcept {
   using signals::Status;
   using signals::Tick;
 
@@ -100,7 +101,8 @@ void advance(LoopState& loop, JointController& joint_controller, GaitController&
 }
 
 // Stops the body and leaves it safe. Returns the first status that was not ok, if any.
-inline signals::Status finish(LoopState& loop, signals::Port& port) noexcept {
+template <class Body>
+signals::Status finish(LoopState& loop, Body& port) noexcept {
   const signals::Status safe = port.stop(loop.at);
   return loop.status == signals::Status::ok ? safe : loop.status;
 }

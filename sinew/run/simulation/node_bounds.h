@@ -2,11 +2,9 @@
 // its controllers.
 #pragma once
 
-#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "sinew/signals/port.h"
 #include "sinew/signals/tick.h"
@@ -18,16 +16,10 @@ namespace sinew::run {
 // extrapolate readings from another node than run() does.
 class NodeBounds {
  public:
-  explicit NodeBounds(const signals::Scan& scan) : period_(scan.period), lag_(scan.period, none) {
-    for (const signals::Conversion& c : scan.conversions)
-      if (c.read < scan.period)
-        lag_[c.read] = std::max(lag_[c.read], static_cast<signals::Tick>(c.read - c.start));
-  }
-
   // `drives`: whether a valve is driven at t, before the conversions. Ticks must not decrease.
-  double before(signals::Tick t, bool samples, bool drives) noexcept {
-    while (t - start_ >= period_) start_ += period_;
-    const signals::Tick of_period = t - start_, lag = lag_[static_cast<std::size_t>(of_period)];
+  double before(const signals::Scan& scan, signals::Tick t, bool samples, bool drives) noexcept {
+    while (t - start_ >= scan.period) start_ += scan.period;
+    const signals::Tick of_period = t - start_, lag = lag_of(scan, of_period);
     if (lag != none && !(drives && of_period != 0)) return seconds(t - lag);
     if (of_period == 0 && !samples) return nothing;  // usually the high level's commands only
     return before(seconds(t));                       // an edge at t: all nodes before it
@@ -42,9 +34,18 @@ class NodeBounds {
     return x > 0 ? std::bit_cast<double>(std::bit_cast<std::int64_t>(x) - 1) : nothing;
   }
   static double seconds(signals::Tick t) { return static_cast<double>(t) * signals::tick_seconds; }
+  // Returns the ticks from the first start of the conversions that are read at a tick of the
+  // period.
+  static signals::Tick lag_of(const signals::Scan& scan, signals::Tick of_period) noexcept {
+    signals::Tick longest = none;
+    for (const signals::Conversion& c : scan.conversions) {
+      const signals::Tick lag = c.read - c.start;
+      if (c.read == of_period && lag > longest) longest = lag;
+    }
+    return longest;
+  }
 
-  signals::Tick period_, start_ = 0;  // start of the present period
-  std::vector<signals::Tick> lag_;    // for the conversions read at a tick of the period
+  signals::Tick start_ = 0;  // of the present period
 };
 
 }  // namespace sinew::run

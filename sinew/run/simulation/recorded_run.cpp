@@ -35,29 +35,34 @@ Outcome RecordedRun::finish() {
   out.wall = wall.count();
   out.stopped = watch_.was_stopped;
   out.failure = simulation_.failure();
-  if (recorder_) {
-    out.table = recorder_->take();
-    out.no_room = recorder_->problem();
-  }
   if (const RemoteBoards* far = simulation_.remote()) {
     out.line = far->problem();
     out.lost = far->lost();
     out.foreign = far->foreign();
   }
-  const Controllers& controllers = simulation_.controllers();
+  add_end(simulation_.experiment(), simulation_.controllers(), recorder_ ? &*recorder_ : nullptr,
+          simulation_.last(), out);
+  return out;
+}
+
+void add_end(const experiment::Experiment& experiment, const Controllers& controllers,
+             Recorder* recorder, Tick last, Outcome& out) {
+  if (recorder) {
+    out.table = recorder->take();
+    out.no_room = recorder->problem();
+  }
   out.controller = controllers.controller_totals();
   out.supervised = controllers.supervised_totals();
-  out.duration = static_cast<double>(simulation_.last()) * signals::tick_seconds;
+  out.duration = static_cast<double>(last) * signals::tick_seconds;
   if (const HighLevel* gait = controllers.gait()) {
     out.changes = gait->changes().all();
     out.unreachable_periods = gait->legs().unreachable_periods();
   } else {
-    out.duration = simulation_.experiment().stand->duration;
+    out.duration = experiment.stand->duration;
   }
   for (const signals::Series& s : out.table.series)
     if (!s.time_ns.empty() && s.topic.name.ends_with("/plan/phase"))
       out.duration = 1e-9 * static_cast<double>(s.time_ns.back());
-  return out;
 }
 
 }  // namespace sinew::run

@@ -46,6 +46,11 @@ struct Watch {
   bool failed() const noexcept { return machine && machine->failure(); }
 };
 
+// Adds what a recorder and the controllers show at the end of a run that may last to the tick
+// `last`.
+void add_end(const experiment::Experiment& experiment, const Controllers& controllers,
+             Recorder* recorder, signals::Tick last, Outcome& out);
+
 class RecordedRun {
  public:
   // Starts at the present state of the simulation, which must outlive this object.

@@ -24,9 +24,9 @@ Samples room(const signals::PageFile& pages, std::size_t most) {
 
 }  // namespace
 
-Recorder::Recorder(const experiment::Experiment& e, const Controllers& controllers,
-                   plant::Machine* machine, Tick end, const signals::TopicNames* wanted)
-    : controllers_(controllers), machine_(machine) {
+Recorder::Recorder(const experiment::Experiment& e, const Controllers& controllers, Truths truths,
+                   Tick end, const signals::TopicNames* wanted)
+    : controllers_(controllers) {
   period_ = std::max<Tick>(1, std::llround(e.log.period / signals::tick_seconds));
   next_ = controllers.first_sample(period_);
 
@@ -36,9 +36,9 @@ Recorder::Recorder(const experiment::Experiment& e, const Controllers& controlle
   };
   topics_ = topics(e);
   std::size_t width = 0;  // numbers in a row
-  for (Column& c : columns(e)) {
+  for (Column& c : run::columns(e)) {
     const std::size_t topic = first_edge_++;
-    if (!is_wanted(c.topic) || (!machine_ && c.is_simulated_only())) continue;
+    if (!is_wanted(c.topic) || (truths == Truths::none && c.is_simulated_only())) continue;
     width += c.topic.fields.size();
     needs_truths_ = needs_truths_ || c.is_simulated_only();
     columns_.push_back({std::move(c), topic});
@@ -120,22 +120,48 @@ signals::Table Recorder::take() {
   return table;
 }
 
-void Recorder::sample(Tick t) noexcept {
-  if (t < next_) return;
+// Begins a row; returns false for the message of a remote board that is lost.
+bool Recorder::begin_sample(Tick t) noexcept {
   next_ += period_;
-  if (!controllers_.has_state_of(t)) return;  // its message from a remote board is lost
+  if (!controllers_.has_state_of(t)) return false;
   now_ns_ = t * signals::tick_nanoseconds;
   keep(row_time_ns_, now_ns_);
   number_ = 0;
+  return true;
+}
+
+void Recorder::put_sample(const Snapshot& now) noexcept {
+  for (const Recorded& recorded : columns_) {
+    std::array<double, 2> values{};
+    recorded.column.value(now, values.data());
+    put(recorded.topic, {values.data(), recorded.column.topic.fields.size()});
+  }
+}
+
+void Recorder::sample(Tick t) noexcept {
+  if (t < next_ || !begin_sample(t)) return;
   const double time = static_cast<double>(t) * signals::tick_seconds;
   if (machine_ && needs_truths_) machine_->truth(time, truths_);
-  controllers_.with_snapshot(time, &truths_, [&](const Snapshot& now) {
-    for (const Recorded& recorded : columns_) {
-      std::array<double, 2> values{};
-      recorded.column.value(now, values.data());
-      put(recorded.topic, {values.data(), recorded.column.topic.fields.size()});
-    }
+  controllers_.with_snapshot(time, &truths_, [&](const Snapshot& now) { put_sample(now); });
+}
+
+void Recorder::sample(Tick t, const plant::Truths& truths, const gait::Desired& desired) noexcept {
+  if (!begin_sample(t)) return;
+  const double time = static_cast<double>(t) * signals::tick_seconds;
+  controllers_.with_snapshot(time, &truths, [&](Snapshot now) {
+    now.desired = {&desired, 1};
+    put_sample(now);
   });
+}
+
+std::vector<Column> Recorder::columns() const {
+  std::vector<Column> out;
+  for (const Recorded& recorded : columns_) out.push_back(recorded.column);
+  return out;
+}
+
+bool Recorder::records_edges() const noexcept {
+  return std::ranges::any_of(edges_, &Edges::wanted);
 }
 
 }  // namespace sinew::run

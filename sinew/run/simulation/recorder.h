@@ -32,11 +32,21 @@ struct Tap {
 
 class Recorder {
  public:
+  // Origin of the true values.
+  enum class Truths { none, of_machine, given };
+
   // Records the controllers and the machine, which must outlive it, up to the tick `end`. `machine`
   // is nullptr for a body that is not simulated. Of the topics, only those of `wanted` are recorded
   // if it is given; the table's series of the others are empty.
   Recorder(const experiment::Experiment& experiment, const Controllers& controllers,
-           plant::Machine* machine, signals::Tick end, const signals::TopicNames* wanted = nullptr);
+           plant::Machine* machine, signals::Tick end, const signals::TopicNames* wanted = nullptr)
+      : Recorder(experiment, controllers, machine ? Truths::of_machine : Truths::none, end,
+                 wanted) {
+    machine_ = machine;
+  }
+  // Records samples whose true values are given.
+  Recorder(const experiment::Experiment& experiment, const Controllers& controllers, Truths truths,
+           signals::Tick end, const signals::TopicNames* wanted);
 
   // Also passes each sample to a receiver, with the receiver's topic for each series.
   void tap(Tap t, std::vector<std::uint16_t> topic_of_series) {
@@ -52,6 +62,15 @@ class Recorder {
   void sample(signals::Tick t) noexcept;
   signals::Tick next(signals::Tick) const noexcept { return next_; }
 
+  // Records a sample at t with these true values and, instead of the high level's, these setpoints
+  // of a leg.
+  void sample(signals::Tick t, const plant::Truths& truths, const gait::Desired& desired) noexcept;
+
+  // Return the recorded columns, whether edges are recorded, and the ticks from sample to sample.
+  std::vector<Column> columns() const;
+  bool records_edges() const noexcept;
+  signals::Tick period() const noexcept { return period_; }
+
   // Returns the recorded series. To be called once, after the run. The table is incomplete if
   // storage was exhausted; problem() then describes the remedy.
   signals::Table take();
@@ -59,9 +78,11 @@ class Recorder {
 
  private:
   void put(std::size_t topic, std::span<const double> values) noexcept;
+  bool begin_sample(signals::Tick t) noexcept;
+  void put_sample(const Snapshot& now) noexcept;
 
   const Controllers& controllers_;
-  plant::Machine* machine_;
+  plant::Machine* machine_ = nullptr;
   plant::Truths truths_;  // at the last sample
 
   // Stores a value. After storage is exhausted, nothing more is stored; the tap still receives it.

@@ -1,0 +1,53 @@
+// run/card/batch.h - many runs of plain legs as blocks of bytes (walk.h), which are launched
+// together on a graphics card, or on the processor in its place.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sinew/experiment/experiment.h"
+#include "sinew/run/card/walk.h"
+#include "sinew/run/simulation/run.h"
+
+namespace sinew::run {
+
+// Runs that are launched together. `sample` and `edge` have room for kept.samples and kept.edges of
+// each run, in the order of Kept; the pointers of Kept are not set.
+struct Batched {
+  std::span<Walk> walks;
+  std::span<const control::Command> commands;
+  std::span<const std::uint16_t> wanted;
+  std::int32_t samples = 0, edges = 0;
+  std::span<std::uint64_t> sample;
+  std::span<std::uint32_t> edge;
+};
+// Runs all of them to their ends. Throws std::runtime_error if it fails.
+using Launcher = std::function<void(const Batched&)>;
+
+// Runs them on the processor, one after the other.
+void launch_on_processor(const Batched& batched);
+
+// An experiment of a batch. It must exist until the batch is done.
+struct BatchedRun {
+  const experiment::Experiment* experiment = nullptr;
+  const signals::TopicNames* topics = nullptr;  // those that its table records; nullptr: all
+  std::string plan;  // runs with equal texts have the same robot as far as its controller knows it,
+                     // and the same plan
+};
+
+// Returns whether a machine of this experiment, and its plan, can be held by a batch: a leg of two
+// links whose muscles are filled through valves from a constant supply, without faults, on one
+// board, with a plan that measures nothing.
+bool fits_batch(const experiment::Experiment& experiment);
+
+// Returns the outcome of each run, with the bits of run(). Nothing for a run that does not fit, or
+// that did not end as planned: it is to be run by itself. Prepares and finishes the runs on
+// threads. Throws what `launch` throws.
+std::vector<std::optional<Outcome>> run_batch(std::span<const BatchedRun> runs,
+                                              const Launcher& launch, int threads);
+
+}  // namespace sinew::run

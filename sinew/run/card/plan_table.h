@@ -1,0 +1,46 @@
+// run/card/plan_table.h - a plan that measures nothing, as a table: what the gait controller
+// commands in each period does not depend on the machine, so that it is computed before the runs.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "sinew/control/joint/command.h"
+#include "sinew/experiment/experiment.h"
+#include "sinew/run/controllers/controllers.h"
+#include "sinew/signals/tick.h"
+
+namespace sinew::run {
+
+// Returns whether a plan's commands depend on what is measured: a phase ends at a level, or follows
+// the ground's force.
+bool measures(const gait::Plan& plan);
+
+class PlanTable {
+ public:
+  // Takes the controllers of an experiment at their start, whose plan must not measure, and the
+  // ticks of its run. The robot must have one leg and one board.
+  PlanTable(const Controllers& controllers, signals::Tick last);
+
+  // Returns the commands of the board in each period of the low level.
+  const std::vector<control::Command>& commands() const { return commands_; }
+  // Returns the first tick at which the plan has finished and vents; the largest tick if it never
+  // does.
+  signals::Tick vents_at() const { return vents_at_; }
+  // Returns the leg's setpoints in the period of a tick.
+  const gait::Desired& desired_at(signals::Tick t) const {
+    return desired_[static_cast<std::size_t>(t / period_)];
+  }
+  // Returns the number of the plan's periods with a point that the leg cannot reach.
+  std::int64_t unreachable_periods() const { return unreachable_periods_; }
+
+ private:
+  signals::Tick period_;
+  signals::Tick vents_at_ = std::numeric_limits<signals::Tick>::max();
+  std::vector<control::Command> commands_;
+  std::vector<gait::Desired> desired_;
+  std::int64_t unreachable_periods_ = 0;
+};
+
+}  // namespace sinew::run
