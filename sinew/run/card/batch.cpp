@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <memory>
+#include <set>
+#include <stdexcept>
+#include <utility>
 
 #include "sinew/host/side_by_side.h"
 #include "sinew/run/card/plan_table.h"
@@ -20,41 +24,52 @@ using signals::Tick;
 
 namespace {
 
+// Returns a recorder whose true values are given, for the topics of a run.
+Recorder recorder_of(const BatchedRun& run, const Controllers& controllers, Tick last) {
+  return {*run.experiment, controllers, Recorder::Truths::given, last, run.topics};
+}
+
 // A run of a batch with its controllers, which show what the walk has computed.
 class Prepared {
  public:
   Prepared(const BatchedRun& run, const plant::Setup& setup)
       : run_(run),
         controllers_(*run.experiment, nullptr),
-        last_(experiment::last_tick(*run.experiment)),
-        recorder_(*run.experiment, controllers_, Recorder::Truths::given, last_, run.topics),
-        walk_(plant::FlatLeg(setup), {controllers_.boards().each().front(), period()},
-              {.last = last_,
-               .first_sample = recorder_.next(0),
-               .sample_period = recorder_.period()}) {}
+        last_(experiment::last_tick(*run.experiment)) {
+    const Recorder recorder = recorder_of(run_, controllers_, last_);
+    period_ = recorder.period();
+    records_edges_ = recorder.records_edges();
+    for (const Column& column : recorder.columns()) columns_ += column.topic.name + '\n';
+    walk_.emplace(plant::FlatLeg(setup),
+                  SingleBoard{controllers_.boards().each().front(), controllers_.scan().period},
+                  Walk::Timing{last_, recorder.next(0), period_});
+  }
 
   const BatchedRun& run() const { return run_; }
-  const Walk& walk() const { return walk_; }
-  Controllers& controllers() { return controllers_; }
-  std::vector<Column> columns() const { return recorder_.columns(); }
-  bool records_edges() const { return recorder_.records_edges(); }
+  const Controllers& controllers() const { return controllers_; }
+  // Returns the names of its columns.
+  const std::string& columns() const { return columns_; }
   Tick last() const { return last_; }
-  std::int32_t samples() const { return static_cast<std::int32_t>(last_ / recorder_.period() + 2); }
+  // Return room for its samples and edges.
+  std::int32_t samples() const { return static_cast<std::int32_t>(last_ / period_ + 2); }
   std::int32_t edges() const {
-    return static_cast<std::int32_t>(8 * controllers_.most_edges(last_));
+    return records_edges_ ? static_cast<std::int32_t>(8 * controllers_.most_edges(last_)) : 0;
   }
-  // Its commands are those of this plan, at this place among all.
-  void set_plan(std::shared_ptr<const PlanTable> plan, std::int64_t first) {
+
+  // Returns its walk with the commands of this plan, which begin at this place among all.
+  Walk take_walk(std::shared_ptr<const PlanTable> plan, std::int64_t first) {
     plan_ = std::move(plan);
-    walk_.set_plan(
-        first, {nullptr, static_cast<std::int64_t>(plan_->commands().size()), plan_->vents_at()});
+    Walk out = *walk_;
+    walk_.reset();
+    out.set_plan(first,
+                 {nullptr, static_cast<std::int64_t>(plan_->commands().size()), plan_->vents_at()});
+    return out;
   }
 
   // Returns its outcome after the launch; nothing if it did not end as planned.
   std::optional<Outcome> outcome(const Walk& ended, const Batched& batched, std::size_t number);
 
  private:
-  std::uint16_t period() const { return controllers_.scan().period; }
   void show(const Shown& shown) {
     controllers_.boards().show(shown.controller, shown.supervised,
                                {0, std::numeric_limits<Tick>::max()});
@@ -62,9 +77,10 @@ class Prepared {
 
   BatchedRun run_;
   Controllers controllers_;
-  Tick last_;
-  Recorder recorder_;
-  Walk walk_;
+  Tick last_, period_ = 0;
+  bool records_edges_ = false;
+  std::string columns_;
+  std::optional<Walk> walk_;
   std::shared_ptr<const PlanTable> plan_;
 };
 
@@ -76,26 +92,27 @@ std::optional<Outcome> Prepared::outcome(const Walk& ended, const Batched& batch
       supervisor.supervised().trip.cause != control::Trip::Cause::none)
     return {};
 
+  Recorder recorder = recorder_of(run_, controllers_, last_);
   const std::size_t runs = batched.walks.size(), words = batched.wanted.size();
   std::array<std::uint64_t, words_of<Shown>> sample{};
   plant::Truths truths;
   Shown shown{};
   Tick t = ended.first_sample();
-  for (std::int32_t s = 0; s < ended.samples(); ++s, t += recorder_.period()) {
+  for (std::int32_t s = 0; s < ended.samples(); ++s, t += period_) {
     const std::size_t row = static_cast<std::size_t>(s) * words;
     for (std::size_t w = 0; w < words; ++w)
       sample[batched.wanted[w]] = batched.sample[(row + w) * runs + number];
     std::memcpy(static_cast<void*>(&shown), sample.data(), sizeof shown);
     truths.robot = shown.truth;
     show(shown);
-    recorder_.sample(t, truths, plan_->desired_at(t));
+    recorder.sample(t, truths, plan_->desired_at(t));
   }
   for (std::int32_t k = 0; k < ended.edges(); ++k)
-    recorder_.edge(PackedEdge::unpack(batched.edge[static_cast<std::size_t>(k) * runs + number]));
+    recorder.edge(PackedEdge::unpack(batched.edge[static_cast<std::size_t>(k) * runs + number]));
 
   show({{}, supervisor.state(), supervisor.supervised()});
   Outcome out{.status = ended.status()};
-  add_end(*run_.experiment, controllers_, &recorder_, last_, out);
+  add_end(*run_.experiment, controllers_, &recorder, last_, out);
   out.unreachable_periods = plan_->unreachable_periods();
   out.nodes = ended.leg().nodes();
   return out;
@@ -104,9 +121,8 @@ std::optional<Outcome> Prepared::outcome(const Walk& ended, const Batched& batch
 // Returns the run, if a batch can hold it. What run() would throw is left to run().
 std::unique_ptr<Prepared> prepare(const BatchedRun& run) {
   try {
-    const Experiment& e = *run.experiment;
-    if (!fits_batch(e)) return nullptr;
-    return std::make_unique<Prepared>(run, planar_setup(e));
+    if (run.experiment == nullptr || !fits_batch(*run.experiment)) return nullptr;
+    return std::make_unique<Prepared>(run, planar_setup(*run.experiment));
   } catch (const std::exception&) {
     return nullptr;
   }
@@ -114,15 +130,13 @@ std::unique_ptr<Prepared> prepare(const BatchedRun& run) {
 
 // What all columns of the runs depend on, ascending.
 std::vector<std::uint16_t> wanted_words(std::span<Prepared* const> runs) {
-  std::map<std::vector<std::string>, bool> seen;  // names of the columns
+  std::set<std::string> seen;
   std::vector<std::uint16_t> all;
-  for (Prepared* run : runs) {
-    const std::vector<Column> columns = run->columns();
-    std::vector<std::string> names;
-    for (const Column& column : columns) names.push_back(column.topic.name);
-    if (!seen.try_emplace(std::move(names), true).second) continue;
+  for (const Prepared* run : runs) {
+    if (!seen.insert(run->columns()).second) continue;
     Controllers controllers(*run->run().experiment, nullptr);
-    const std::vector<std::uint16_t> more = words_behind(columns, controllers);
+    const Recorder recorder = recorder_of(run->run(), controllers, run->last());
+    const std::vector<std::uint16_t> more = words_behind(recorder.columns(), controllers);
     all.insert(all.end(), more.begin(), more.end());
   }
   std::ranges::sort(all);
@@ -130,28 +144,64 @@ std::vector<std::uint16_t> wanted_words(std::span<Prepared* const> runs) {
   return all;
 }
 
-// Gives each run its table of commands, and returns all of them.
-std::vector<control::Command> set_plans(std::span<Prepared* const> runs, int threads) {
-  std::map<std::string, std::vector<Prepared*>> sharing;
-  for (Prepared* run : runs) sharing[run->run().plan].push_back(run);
-  std::vector<std::vector<Prepared*>> groups;
-  for (auto& [plan, of] : sharing) groups.push_back(std::move(of));
-  std::vector<std::shared_ptr<const PlanTable>> tables(groups.size());
+// Moves the walks of the runs to `walks`, each with its table of commands, and returns the
+// commands.
+std::vector<control::Command> take_walks(std::span<Prepared* const> runs, int threads,
+                                         std::vector<Walk>& walks) {
+  std::map<std::string, std::size_t> group_of;
+  std::vector<const Prepared*> firsts;  // of each group with a plan of its own
+  std::vector<std::size_t> groups;
+  for (const Prepared* run : runs) {
+    const auto [at, is_new] = group_of.try_emplace(run->run().plan, firsts.size());
+    if (is_new) firsts.push_back(run);
+    groups.push_back(at->second);
+  }
+  std::vector<std::shared_ptr<const PlanTable>> tables(firsts.size());
   host::side_by_side(
-      groups.size(),
+      firsts.size(),
       [&](std::size_t g) {
-        Prepared& first = *groups[g].front();
-        tables[g] = std::make_shared<const PlanTable>(first.controllers(), first.last());
+        tables[g] = std::make_shared<const PlanTable>(firsts[g]->controllers(), firsts[g]->last());
       },
       nullptr, threads);
   std::vector<control::Command> commands;
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (Prepared* run : groups[g])
-      run->set_plan(tables[g], static_cast<std::int64_t>(commands.size()));
-    const auto& rows = tables[g]->commands();
-    commands.insert(commands.end(), rows.begin(), rows.end());
+  std::vector<std::int64_t> places;
+  for (const auto& table : tables) {
+    places.push_back(static_cast<std::int64_t>(commands.size()));
+    commands.insert(commands.end(), table->commands().begin(), table->commands().end());
   }
+  walks.reserve(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    walks.push_back(runs[i]->take_walk(tables[groups[i]], places[groups[i]]));
   return commands;
+}
+
+// Returns whether two tables have the same bits.
+bool same_bits(const signals::Table& a, const signals::Table& b) {
+  const auto same = [](const auto& x, const auto& y) {
+    bool all = x.size() == y.size();
+    for (std::size_t i = 0; all && i < x.size(); ++i) {
+      const auto p = x[i], q = y[i];
+      all = std::memcmp(&p, &q, sizeof p) == 0;
+    }
+    return all;
+  };
+  bool all = a.series.size() == b.series.size();
+  for (std::size_t s = 0; all && s < a.series.size(); ++s) {
+    all = same(a.series[s].time_ns, b.series[s].time_ns) &&
+          a.series[s].columns.size() == b.series[s].columns.size();
+    for (std::size_t c = 0; all && c < a.series[s].columns.size(); ++c)
+      all = same(a.series[s].columns[c], b.series[s].columns[c]);
+  }
+  return all;
+}
+
+// Throws if a run of the launch has other bits than by itself: then none can be trusted.
+void compare_with_alone(const BatchedRun& of, const Outcome& launched) {
+  if (!same_bits(launched.table, run(*of.experiment, {.topics = of.topics}).table))
+    throw std::runtime_error(
+        "found other bits than the processor's in a run that was launched together with others; "
+        "expected the same; use the processor instead (device cpu), and report it with the output "
+        "of `sinew doctor`");
 }
 
 }  // namespace
@@ -186,14 +236,13 @@ std::vector<std::optional<Outcome>> run_batch(std::span<const BatchedRun> runs,
   std::vector<std::optional<Outcome>> out(runs.size());
   if (held.empty()) return out;
 
-  const std::vector<control::Command> commands = set_plans(held, threads);
-  const std::vector<std::uint16_t> wanted = wanted_words(held);
-  Batched batched{.commands = commands, .wanted = wanted};
   std::vector<Walk> walks;
-  for (Prepared* run : held) {
-    walks.push_back(run->walk());
+  const std::vector<control::Command> commands = take_walks(held, threads, walks);
+  const std::vector<std::uint16_t> wanted = wanted_words(held);
+  Batched batched{.walks = {}, .commands = commands, .wanted = wanted, .sample = {}, .edge = {}};
+  for (const Prepared* run : held) {
     batched.samples = std::max(batched.samples, run->samples());
-    if (run->records_edges()) batched.edges = std::max(batched.edges, run->edges());
+    batched.edges = std::max(batched.edges, run->edges());
   }
   batched.walks = walks;
   std::vector<std::uint64_t> sample(walks.size() * wanted.size() *
@@ -205,6 +254,9 @@ std::vector<std::optional<Outcome>> run_batch(std::span<const BatchedRun> runs,
 
   std::vector<std::optional<Outcome>> ended(held.size());
   each(held.size(), [&](std::size_t i) { ended[i] = held[i]->outcome(walks[i], batched, i); });
+  const auto first = std::ranges::find_if(ended, [](const auto& its) { return its.has_value(); });
+  if (first != ended.end())
+    compare_with_alone(held[static_cast<std::size_t>(first - ended.begin())]->run(), **first);
   for (std::size_t i = 0, k = 0; i < runs.size(); ++i)
     if (all[i]) out[i] = std::move(ended[k++]);
   return out;

@@ -33,8 +33,8 @@ void launch_on_processor(const Batched& batched);
 
 // An experiment of a batch. It must exist until the batch is done.
 struct BatchedRun {
-  const experiment::Experiment* experiment = nullptr;
-  const signals::TopicNames* topics = nullptr;  // those that its table records; nullptr: all
+  const experiment::Experiment* experiment = nullptr;  // nullptr: it is to be run by itself
+  const signals::TopicNames* topics = nullptr;         // those that its table records; nullptr: all
   std::string plan;  // runs with equal texts have the same robot as far as its controller knows it,
                      // and the same plan
 };

@@ -194,6 +194,13 @@ void Ensemble::compare(const Member& set, const Member& read,
 
 std::unique_ptr<Ensemble::Member> Ensemble::member(std::span<const double> values,
                                                    const std::vector<std::string>& texts) const {
+  std::unique_ptr<Member> out = member_with(values, texts);
+  out->values = texts;
+  return out;
+}
+
+std::unique_ptr<Ensemble::Member> Ensemble::member_with(
+    std::span<const double> values, const std::vector<std::string>& texts) const {
   std::shared_ptr<const analysis::Selection> selection;
   {
     const std::lock_guard lock(mutex_);
@@ -227,6 +234,30 @@ std::unique_ptr<Ensemble::Member> Ensemble::member(std::span<const double> value
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < values.size(); ++i) texts.push_back(text_of(values[i], units()[i]));
   return member(values, texts);
+}
+
+// Finds the parameters that change the robot or the plan: each is changed by itself.
+void Ensemble::find_plan_parameters() const {
+  std::vector<bool> found;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    std::vector<double> values = start_.numbers.values();
+    values[i] += units()[i].empty() ? 1.0 : 1e-3 * (1.0 + std::abs(values[i]));
+    experiment::Experiment changed = start_.experiment, of_plan = start_.experiment;
+    const bool is_set = start_.numbers.set_unbounded(changed, values);
+    of_plan.robot = changed.robot;
+    of_plan.plan = changed.plan;
+    found.push_back(!is_set || !experiment::same_values(of_plan, start_.experiment));
+  }
+  of_plan_ = std::move(found);
+}
+
+std::string Ensemble::plan_of(const Member& member) const {
+  const std::lock_guard lock(mutex_);
+  if (of_plan_.empty()) find_plan_parameters();
+  std::string out = fmt::format("{} ", static_cast<const void*>(this));
+  for (std::size_t i = 0; i < of_plan_.size() && i < member.values.size(); ++i)
+    if (of_plan_[i]) out += member.values[i] + '\n';
+  return out;
 }
 
 // Returns the figures of a run: the wanted ones from the topics that it recorded, or all of them.

@@ -81,6 +81,7 @@ class Ensemble {
     analysis::Machine machine;
     std::shared_ptr<const analysis::Selection> selection;  // its topics are recorded; empty: all
     bool is_set = false;  // its numbers were set in a copy of another run's experiment
+    std::vector<std::string> values = {};  // texts of its parameters
   };
 
   // Reads an experiment through files that were read before, which must outlive the ensemble.
@@ -101,6 +102,9 @@ class Ensemble {
   std::unique_ptr<Member> member(std::span<const double> values) const;
   // Keeps the memory of a member that is no longer needed for another one.
   void keep(std::unique_ptr<Member> member) const;
+  // Returns a text that is equal for members with the same robot, as far as its gait controller
+  // knows it, and the same plan.
+  std::string plan_of(const Member& member) const;
   // Returns the result of a run, with all figures or with the wanted ones, and keeps the member's
   // memory for another one.
   RunResult result(std::unique_ptr<Member> member, const Outcome& outcome) const;
@@ -118,7 +122,10 @@ class Ensemble {
   std::unique_ptr<Member> set(std::span<const double> values) const;
   std::unique_ptr<Member> member(std::span<const double> values,
                                  const std::vector<std::string>& texts) const;
+  std::unique_ptr<Member> member_with(std::span<const double> values,
+                                      const std::vector<std::string>& texts) const;
   std::unique_ptr<Member> spare() const;
+  void find_plan_parameters() const;
   bool reads() const;
   analysis::Summary figures_of(const Member& member, const Outcome& outcome, bool& no_air) const;
   void check_figures(const analysis::Summary& whole) const;
@@ -140,6 +147,7 @@ class Ensemble {
   mutable bool reads_ = false;           // they differed: the file is read for every run
   mutable std::exception_ptr misspelt_;  // refusal of a figure
   mutable std::shared_ptr<const analysis::Selection> selection_;
+  mutable std::vector<bool> of_plan_;  // parameters of the robot or the plan; empty: not yet found
   mutable std::vector<std::unique_ptr<Member>> spare_;
 };
 

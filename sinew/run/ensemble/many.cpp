@@ -1,11 +1,13 @@
 #include "sinew/run/ensemble/many.h"
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 
 #include <fmt/format.h>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/host/side_by_side.h"
 #include "sinew/run/simulation/lanes.h"
 #include "sinew/units/letters.h"
 
@@ -80,6 +82,95 @@ void run_many(const Many& many) {
               }));
   };
   run_in_lanes({.next = next, .done = done, .most = many.lanes, .topics = topics});
+}
+
+namespace {
+
+// A run of a batch, begun or refused.
+struct BatchMember {
+  std::size_t number = 0;
+  BegunRun run;
+};
+
+const signals::TopicNames* topics_of(const BegunRun& run) {
+  return run.member->selection ? &run.member->selection->topics() : nullptr;
+}
+
+// Begins a run; reports it if it is refused, and has no member then.
+void begin_member(const Many& many, BatchMember& its) {
+  RunResult refused = refusing([&] {
+    its.run = many.begin(its.number);
+    return RunResult{};
+  });
+  if (!its.run.member) many.done(its.number, std::move(refused));
+}
+
+// Begins the next runs, at most `most`, in parallel.
+std::vector<BatchMember> begin_batch(const Many& many, std::size_t most, int threads) {
+  std::vector<BatchMember> batch;
+  while (batch.size() < most) {
+    const std::optional<std::size_t> number = many.next();
+    if (!number) break;
+    batch.push_back({*number, {}});
+  }
+  host::side_by_side(
+      batch.size(), [&](std::size_t i) { begin_member(many, batch[i]); }, nullptr, threads);
+  std::erase_if(batch, [](const BatchMember& its) { return !its.run.member; });
+  return batch;
+}
+
+// Runs what a batch could not hold, in lanes on threads.
+void run_rest(const Many& many, std::vector<BatchMember> rest, int threads) {
+  std::atomic<std::size_t> taken{0};
+  const auto next = [&]() -> std::optional<std::size_t> {
+    const std::size_t i = taken++;
+    return i < rest.size() ? std::optional(i) : std::nullopt;
+  };
+  const auto begin = [&](std::size_t i) { return std::move(rest[i].run); };
+  const auto done = [&](std::size_t i, RunResult result) {
+    many.done(rest[i].number, std::move(result));
+  };
+  const auto count = std::min(static_cast<std::size_t>(threads), rest.size());
+  const int lanes = rest.empty() ? 1 : lanes_of(rest.size(), count, many.lanes);
+  host::side_by_side(
+      count,
+      [&](std::size_t) { run_many({.next = next, .begin = begin, .done = done, .lanes = lanes}); },
+      nullptr, threads);
+}
+
+}  // namespace
+
+void run_many_in_batches(const Many& many, const Launcher& launch, std::size_t most, int threads) {
+  // The first run finds the channels that the others record.
+  if (const std::optional<std::size_t> number = many.next()) {
+    BatchMember first{*number, {}};
+    begin_member(many, first);
+    if (first.run.member)
+      many.done(*number, refusing([&] { return run_alone(std::move(first.run)); }));
+  }
+  for (;;) {
+    std::vector<BatchMember> batch = begin_batch(many, most, threads), rest;
+    if (batch.empty()) return;
+    // A run without known channels would record all of them.
+    std::vector<BatchedRun> runs;
+    for (const BatchMember& its : batch)
+      runs.push_back({topics_of(its.run) ? &its.run.member->experiment : nullptr,
+                      topics_of(its.run), its.run.ensemble->plan_of(*its.run.member)});
+    const std::vector<std::optional<Outcome>> outcomes = run_batch(runs, launch, threads);
+    host::side_by_side(
+        batch.size(),
+        [&](std::size_t i) {
+          if (!outcomes[i]) return;
+          BegunRun& its = batch[i].run;
+          many.done(batch[i].number, refusing([&] {
+                      return its.ensemble->result(std::move(its.member), *outcomes[i]);
+                    }));
+        },
+        nullptr, threads);
+    for (std::size_t i = 0; i < batch.size(); ++i)
+      if (!outcomes[i]) rest.push_back(std::move(batch[i]));
+    run_rest(many, std::move(rest), threads);
+  }
 }
 
 int lanes_of(std::size_t runs, std::size_t threads, int most) {

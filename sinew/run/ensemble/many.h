@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "sinew/config/compose.h"
+#include "sinew/run/card/batch.h"
 #include "sinew/run/ensemble/ensemble.h"
 
 namespace sinew::run {
@@ -34,6 +35,11 @@ struct Many {
 // Runs all in this thread (run/simulation/lanes.h). Each result has the wanted figures of the
 // same single run.
 void run_many(const Many& many);
+
+// Runs all in batches of at most `most` runs (run/card/batch.h), which `launch` computes; those
+// that a batch cannot hold are run in lanes on threads. The results are those of run_many(). Throws
+// std::runtime_error if a launch fails.
+void run_many_in_batches(const Many& many, const Launcher& launch, std::size_t most, int threads);
 
 // Returns the lanes of each thread, at most `most`, so that all threads have runs.
 int lanes_of(std::size_t runs, std::size_t threads, int most);
