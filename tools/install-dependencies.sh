@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# install-dependencies.sh [demo|check|faces|long|bench|npm]   installs missing packages with apt, and no others.
+# install-dependencies.sh [demo|check|faces|long|card|bench|npm]   installs missing packages with apt, and no others.
 #
 #   demo    builds and runs Sinew
 #   check   also ./check
 #   faces   also ./check faces
 #   long    also ./check long
+#   card    builds the program for graphics cards too
 #   bench   builds Sinew and its benchmarks (bench)
 #   npm     for tools/npm-ci.sh, if it cannot download npm
 #
@@ -64,6 +65,7 @@ list='
     long   clang++-14          clang-14                         second compiler
     long   -                   libclang-rt-14-dev               fuzzers and sanitizers for it
     long   llvm-symbolizer-14  llvm-14                          names lines in their reports
+    card   clang++-19          clang-19                         compiles the program for graphics cards
     bench  -                   libbenchmark-dev                 repeats rows, computes their statistics
     bench  -                   libbenchmark-tools               compares two records
     bench  -                   python3-scipy                    needed by that
@@ -76,9 +78,10 @@ case ${1:-demo} in
   check) sets=' demo check ' ;;
   faces) sets=' demo check faces ' ;;
   long) sets=' demo check faces long ' ;;
+  card) sets=' demo card ' ;;
   bench) sets=' demo bench ' ;;
   npm) sets=' npm ' ;;
-  *) echo "usage: $0 [demo|check|faces|long|bench|npm]" >&2; exit 2 ;;
+  *) echo "usage: $0 [demo|check|faces|long|card|bench|npm]" >&2; exit 2 ;;
 esac
 
 if [[ ${SINEW_DEPENDENCIES:-} == present ]]; then

@@ -20,7 +20,7 @@ step_shell() {
     count=$((count + 1))
   done < <(find . \( -name build -o -name node_modules -o -name .git -o -name runs \) -prune -o \
              -type f \( -name '*.sh' -o -path ./demo -o -path ./check -o -path ./.ci/run \) -print)
-  tools/compare-results.sh --self-test || return 1
+  tools/compare-results.sh --self-test && tools/card-ptx.sh --self-test || return 1
   echo "shell: $count scripts"
 }
 
