@@ -12,6 +12,7 @@
 #include "cli/interrupt.h"
 #include "cli/terminal.h"
 #include "fmu/export/export.h"
+#include "sinew/card/walk.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/host/doctor.h"
 #include "sinew/host/realtime.h"
@@ -73,7 +74,11 @@ host::Latency measure() {
 }
 
 ExitCode examine(const DoctorOptions& options) {
-  const std::vector<host::Finding> findings = host::examine({.latency = measure});
+  const std::vector<host::Finding> findings = host::examine({
+      .latency = measure,
+      .cards = card::list,
+      .has_card_program = !card::walk_ptx().empty(),
+  });
   const bool ready = host::is_ready(findings, options.place);
   if (options.json)
     print_json(findings, options, ready);

@@ -259,6 +259,32 @@ void check_parts(const DoctorOptions& options, Findings& out) {
       "libcomedi-dev   # then cmake --preset release && cmake --build --preset all");
 }
 
+// --- graphics cards ---
+
+void check_cards(const DoctorOptions& options, Findings& out) {
+  if (!options.cards) return;
+  const auto add = [&](const std::string& found, const char* todo) {
+    out.push_back({"graphics card", "", *todo ? Verdict::advice : Verdict::good, found,
+                   "one runs thousands of machines of a study at the same time", todo});
+  };
+  std::string problem;
+  const std::vector<card::Properties> cards = options.cards(problem);
+  if (cards.empty())
+    add("none: " + problem,
+        "sudo apt-get install nvidia-driver   # if the computer has a card of NVIDIA");
+  for (const card::Properties& c : cards) {
+    const std::string found =
+        fmt::format("{}: {}, {:.0f} GB, {} multiprocessors, driver for CUDA {}", c.number, c.name,
+                    static_cast<double>(c.memory) / 1e9, c.multiprocessors, c.driver);
+    if (options.has_card_program)
+      add(found, "");
+    else
+      add(found + "; this build has no program for it",
+          "tools/install-dependencies.sh card   # then "
+          "cmake --preset release && cmake --build --preset all");
+  }
+}
+
 }  // namespace
 
 std::vector<Finding> examine(const DoctorOptions& options) {
@@ -269,6 +295,7 @@ std::vector<Finding> examine(const DoctorOptions& options) {
   check_limits(options, out);
   check_kernel(options, out);
   check_latency(options, out);
+  check_cards(options, out);
   return out;
 }
 

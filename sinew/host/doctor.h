@@ -1,8 +1,8 @@
 // host/doctor.h - check whether this computer is ready to drive a machine. Each finding has a
 // result, its importance, and advice.
 //
-// Everything except the timer's latency is read from files below a root: /, or a tree made by a
-// test.
+// Everything except the timer's latency and the graphics cards is read from files below a root: /,
+// or a tree made by a test.
 #pragma once
 
 #include <filesystem>
@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "sinew/card/driver.h"
 #include "sinew/host/realtime.h"
 
 namespace sinew::host {
@@ -34,7 +35,10 @@ struct Finding {
 struct DoctorOptions {
   std::filesystem::path root = "/";
   std::vector<std::string> programs = {"/usr/local/bin", "/usr/bin", "/bin"};  // their folders
-  std::function<Latency()> latency;  // empty: not measured
+  std::function<Latency()> latency;                                          // empty: not measured
+  std::function<std::vector<card::Properties>(std::string& problem)> cards;  // card::list; empty:
+                                                                             // not examined
+  bool has_card_program = false;  // this build has a program for graphics cards (card/walk.h)
 };
 
 // Runs all checks and changes nothing. The findings are in the order in which they should be read.

@@ -52,7 +52,14 @@ class Doctor : public ::testing::Test {
     ASSERT_EQ(::chmod((root_ / file).c_str(), bits), 0);
   }
   std::vector<Finding> look(Latency latency = {1e-6, 5e-6, 20e-6, 10'000}) const {
-    return examine({.root = root_, .latency = [=] { return latency; }});
+    return examine({.root = root_,
+                    .latency = [=] { return latency; },
+                    .cards =
+                        [&](std::string& problem) {
+                          problem = problem_;
+                          return cards_;
+                        },
+                    .has_card_program = has_card_program_});
   }
   static Finding find(const std::vector<Finding>& all, const std::string& subject) {
     for (const Finding& f : all)
@@ -74,6 +81,13 @@ class Doctor : public ::testing::Test {
   }
 
   fs::path root_;
+  std::vector<card::Properties> cards_{{.number = 0,
+                                        .name = "NVIDIA H200",
+                                        .multiprocessors = 132,
+                                        .memory = 150'000'000'000,
+                                        .driver = "13.0"}};
+  std::string problem_;
+  bool has_card_program_ = true;
 };
 
 TEST_F(Doctor, OfAComputerOnWhichNothingIsWrongAllIsGood) {
@@ -181,6 +195,18 @@ TEST_F(Doctor, AnAdapterThatCollectsFor16MillisecondsIsReportedWithTheRemedy) {
   const Finding said = only("USB adapter");
   EXPECT_EQ(said.found, "ttyUSB0 collects bytes for 16 ms");
   EXPECT_EQ(said.todo, "echo 1 | sudo tee /sys/bus/usb-serial/devices/ttyUSB0/latency_timer");
+}
+
+TEST_F(Doctor, EachGraphicsCardIsListedAndTheReasonIfItCannotBeUsed) {
+  EXPECT_EQ(find(look(), "graphics card").found,
+            "0: NVIDIA H200, 150 GB, 132 multiprocessors, driver for CUDA 13.0");
+  has_card_program_ = false;
+  const Finding unused = only("graphics card");
+  EXPECT_TRUE(unused.found.ends_with("; this build has no program for it")) << unused.found;
+  EXPECT_TRUE(unused.todo.starts_with("tools/install-dependencies.sh card ")) << unused.todo;
+  cards_.clear();
+  problem_ = "no driver of NVIDIA";
+  EXPECT_EQ(only("graphics card").found, "none: no driver of NVIDIA");
 }
 
 TEST_F(Doctor, ALateTimerIsAdviceWithItsClass) {

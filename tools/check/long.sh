@@ -23,7 +23,7 @@ step_threads() {
 step_asan() {  # step_asan PROGRAM
   cmake --preset asan || return 1
   if [[ $1 == transcripts ]]; then
-    cmake --build build/asan --target sinew sinew_thesis_program && run_ctest asan -- -R '^transcript:'
+    cmake --build build/asan --target sinew sinew_thesis_program sinew_fake_card && run_ctest asan -- -R '^transcript:'
   else
     cmake --build build/asan --target "sinew_$1_test" && run_ctest asan -- -R "^$1: " -L '^(tests|clock)$'
   fi
