@@ -20,8 +20,9 @@ constexpr Renamed renamed[] = {
 // Settings that messages of the library name with a value. Other words stay: "time=0" is no option.
 constexpr std::string_view settings =
     " actuator added_volume align anyway arm base bits candidate columns compressor "
-    "conductance contraction cycles dates decimal diameter down droop droop_flow "
-    "drop_incomplete encoding exponent external_volume fill_time flexion flexor_length flow "
+    "conductance contraction cycles dates decimal device diameter down droop "
+    "droop_flow drop_incomplete encoding exponent external_volume fill_time flexion flexor_length "
+    "flow "
     "force frequency full_scale hold_out json keep_force known label largest law_error lever "
     "line load machine made model moment_arm most motion muscle_pressure muscles names "
     "offsets only part per_volume points port pressure range rate reading report rest "
@@ -34,7 +35,8 @@ constexpr std::string_view quoted_settings = " length ";
 // Settings that can be the subject of a problem: at the begin of a line, or behind a file's name.
 // A name with a line number is a key of that file.
 constexpr std::string_view subjects =
-    " candidate freeze known model names offsets part points prior range report rigs sensors "
+    " candidate device freeze known model names offsets part points prior range report rigs "
+    "sensors "
     "shard tie units values vary where ";
 
 // Settings that can be the subject at the begin of a line alone: a file may have such a column.

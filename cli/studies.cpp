@@ -35,7 +35,8 @@ namespace fs = std::filesystem;
 
 // Options of all these commands besides the study.
 struct RunsOptions {
-  int threads = 0;      // 0: as many as the machine has
+  int threads = 0;  // 0: as many as the machine has
+  std::string device = "auto";
   std::string results;  // a study's file
   std::string shard;    // "2/3"; empty: all points
 };
@@ -55,7 +56,7 @@ bool is_worker_of(const tune::Ranks& ranks, const RunsOptions& options,
                   const std::function<tune::Sweep()>& sweep) {
   if (!ranks.is_worker()) return false;
   const Interrupt interrupt;
-  tune::work(ranks, sweep, std::max(1, options.threads));
+  tune::work(ranks, sweep, std::max(1, options.threads), run::parse_device(options.device));
   return true;
 }
 
@@ -64,7 +65,8 @@ bool is_worker_of(const tune::Ranks& ranks, const RunsOptions& options,
 // config::Error where a figure has no row; both name what holds the rows.
 std::vector<tune::Row> run_rows(const tune::Sweep& s, const SweepRuns& how) {
   const std::string& file = how.options.results;
-  tune::Options options{.threads = host::threads_of(how.options.threads)};
+  tune::Options options{.threads = host::threads_of(how.options.threads),
+                        .device = run::parse_device(how.options.device)};
   if (!how.options.shard.empty()) options.share = tune::parse_share(how.options.shard);
   std::optional<tune::Results> results;
   tune::open_results(s, file, options, results, how.messages.notices());
@@ -104,15 +106,18 @@ void add_words(CLI::App& sub, const char* name, std::vector<std::string>& words,
   sub.add_option(name, words, description)->allow_extra_args(false);
 }
 
-// --threads and --results.
+// --threads, --device and --results.
 void add_keeping(CLI::App& sub, RunsOptions& options) {
   sub.add_option("--threads", options.threads, "runs at a time; default: one per processor")
       ->transform(between(1, 1024));
+  sub.add_option("--device", options.device,
+                 "auto, cpu, gpu or gpu:N: cores or a graphics card; the table is the same")
+      ->capture_default_str();
   sub.add_option("--results", options.results,
                  "FILE: study file that stores each finished row; stored rows are not run again");
 }
 
-// --range, --set, --report, --units, --allow-unreachable, --threads and --results.
+// --range, --set, --report, --units, --allow-unreachable, --threads, --device and --results.
 void add_runs(CLI::App& sub, tune::Study& study, RunsOptions& options) {
   add_words(sub, "--range", study.range,
             "KEY=RANGE: range to sample, from:to unit; \"log\" or \"whole\" may follow the unit");
@@ -199,7 +204,8 @@ tune::Tuned run_tuning(const tune::Tuning& tuning, const TuneOptions& options, t
   std::atomic<std::int64_t> progress{0};
   Interrupt interrupt;
   tune::StoredTuningOptions kept{
-      .tune = {.runs = {.threads = host::threads_of(options.runs.threads)}},
+      .tune = {.runs = {.threads = host::threads_of(options.runs.threads),
+                        .device = run::parse_device(options.runs.device)}},
       .ask_to_stop = [&] { interrupt.request(); },
       .notices = messages.notices()};
   kept.tune.runs.stop = &interrupt.requested();

@@ -29,7 +29,7 @@ std::unique_ptr<HeldEnsemble> make(const py::object& experiment,
 
 // Runs the ensemble; returns its figures and the status of each run.
 py::tuple run(const HeldEnsemble& self, const py::object& values, int threads,
-              const py::object& progress) {
+              const py::object& progress, const std::string& device) {
   if (threads < 0)
     throw std::invalid_argument(fmt::format("threads: found {}; expected 0 or more", threads));
   const Numbers given = numbers(values, "values");
@@ -46,10 +46,12 @@ py::tuple run(const HeldEnsemble& self, const py::object& values, int threads,
   std::atomic<bool> stop = false;
   std::atomic<std::int64_t> done = 0;
   std::vector<std::string> status;
+  const run::Device chosen = run::parse_device(device);
   do_interruptibly(
       stop,
       [&] {
-        status = self.runs.run(from, to, {.threads = threads, .stop = &stop, .progress = &done});
+        status = self.runs.run(
+            from, to, {.threads = threads, .device = chosen, .stop = &stop, .progress = &done});
       },
       [&] {
         if (!progress.is_none()) progress(done.load(), rows);
@@ -87,20 +89,23 @@ void bind_ensemble(py::module_& m) {
           "The SI unit of each parameter; \"\" for a whole number.")
       .def(
           "run", &run, py::arg("values"), py::kw_only(), py::arg("threads") = 0,
-          py::arg("progress") = py::none(),
-          "Runs one experiment per row of `values` [SI], on all cores or on so many `threads`.\n"
+          py::arg("progress") = py::none(), py::arg("device") = "auto",
+          "Runs one experiment per row of `values` [SI], on all cores or on so many `threads`, or\n"
+          "on a graphics card: `device` is \"auto\", \"cpu\", \"gpu\" or \"gpu:1\".\n"
           "Returns the figures, an array [SI] with a row per run, and a list of texts: \"ok\", or\n"
           "why that run has no figures, which are NaN then. A figure that a run lacks is NaN, "
           "too.\n"
           "`progress` is called with the numbers of completed and of all runs; an exception that\n"
-          "it raises ends the ensemble, as Ctrl-C does. Raises ValueError for another shape, and\n"
-          "InputError for a figure that does not exist and resembles one that does.")
+          "it raises ends the ensemble, as Ctrl-C does. Raises ValueError for another shape,\n"
+          "InputError for a figure that does not exist and resembles one that does, and\n"
+          "RuntimeError for a card that cannot be used.")
       .def(
           "__call__",
-          [](const HeldEnsemble& self, const py::object& values, int threads) -> py::object {
-            return run(self, values, threads, py::none())[0];
+          [](const HeldEnsemble& self, const py::object& values, int threads,
+             const std::string& device) -> py::object {
+            return run(self, values, threads, py::none(), device)[0];
           },
-          py::arg("values"), py::kw_only(), py::arg("threads") = 0,
+          py::arg("values"), py::kw_only(), py::arg("threads") = 0, py::arg("device") = "auto",
           "Returns the figures of run(), without the reasons of runs that have none.");
 }
 

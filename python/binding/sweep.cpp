@@ -79,7 +79,7 @@ void report_progress(const py::object& progress, std::int64_t done, std::size_t 
 py::object sweep(const py::object& experiment, const py::object& vary, const py::object& report,
                  const py::object& sets, int seeds, int threads, const py::object& where,
                  const std::string& largest, const py::object& ranges, int points,
-                 const py::object& progress) {
+                 const py::object& progress, const std::string& device) {
   const ExperimentPointer e = experiment_of(experiment, sets);
   if (!e->text.empty())
     throw std::invalid_argument(
@@ -96,14 +96,17 @@ py::object sweep(const py::object& experiment, const py::object& vary, const py:
                                             .seeds = seeds});
   std::atomic<bool> stop = false;
   std::atomic<std::int64_t> done = 0;
+  const tune::Options options{.threads = host::threads_of(threads),
+                              .device = run::parse_device(device),
+                              .stop = &stop,
+                              .progress = &done};
   std::vector<tune::Row> rows;
   const std::size_t all = tune::points(asked);
   do_interruptibly(
       stop,
       [&] {
         tune::check(asked);
-        rows = tune::sweep(
-            asked, {.threads = host::threads_of(threads), .stop = &stop, .progress = &done});
+        rows = tune::sweep(asked, options);
       },
       [&] { report_progress(progress, done.load(), all); });
   report_progress(progress, static_cast<std::int64_t>(all), all);
@@ -113,7 +116,8 @@ py::object sweep(const py::object& experiment, const py::object& vary, const py:
 
 // Returns the output of `sinew tune --json` for a tuning file.
 py::object tune_file(const py::object& path, const py::object& results, const py::object& sets,
-                     int generations, int threads, const py::object& progress) {
+                     int generations, int threads, const py::object& progress,
+                     const std::string& device) {
   check_counts({{"generations", generations}, {"threads", threads}});
   const std::string file = path_of(path), kept = path_of(results);
   const tune::Tuning tuning = tune::load_tuning(file, sets_without_numbers(sets), generations);
@@ -121,7 +125,10 @@ py::object tune_file(const py::object& path, const py::object& results, const py
   std::atomic<std::int64_t> done = 0;
   tune::Tuned tuned;
   tune::StoredTuningOptions options{.ask_to_stop = [&] { stop.store(true); }};
-  options.tune.runs = {.threads = host::threads_of(threads), .stop = &stop, .progress = &done};
+  options.tune.runs = {.threads = host::threads_of(threads),
+                       .device = run::parse_device(device),
+                       .stop = &stop,
+                       .progress = &done};
   const std::size_t all = tune::points(tuning.runs);
   do_interruptibly(
       stop, [&] { tuned = tune::optimize_and_store(tuning, kept, options); },
@@ -137,6 +144,7 @@ void bind_sweep(py::module_& m) {
       py::arg("report") = py::list(), py::arg("sets") = py::none(), py::arg("seeds") = 0,
       py::arg("threads") = 0, py::arg("where") = py::list(), py::arg("largest") = "",
       py::arg("ranges") = py::list(), py::arg("points") = 0, py::arg("progress") = py::none(),
+      py::arg("device") = "auto",
       "Runs an experiment many times, on all cores or so many `threads`, and returns a list of\n"
       "dicts, one for each run: what was varied, what is reported, and \"status\".\n"
       "\n"
@@ -145,15 +153,18 @@ void bind_sweep(py::module_& m) {
       "without, what is reported of the experiment. `seeds`: each with the noise of seeds 1 to\n"
       "so many. `where`, `largest`, `ranges` and `points` are those of `sinew sweep`.\n"
       "`progress` is called with how many are done, and of how many; what it raises ends the\n"
-      "sweep, as Ctrl-C does. The rows are the same for any number of threads. Raises\n"
-      "InputError.");
+      "sweep, as Ctrl-C does. `device`: \"auto\", \"cpu\", \"gpu\" or \"gpu:1\", the cores or a "
+      "graphics\n"
+      "card. The rows are the same for any number of threads and any device. Raises InputError,\n"
+      "and RuntimeError for a card that cannot be used.");
   m.def("tune", &tune_file, py::arg("path"), py::arg("results"), py::kw_only(),
         py::arg("sets") = py::none(), py::arg("generations") = 0, py::arg("threads") = 0,
-        py::arg("progress") = py::none(),
+        py::arg("progress") = py::none(), py::arg("device") = "auto",
         "Searches the best values of an experiment's keys, by a tuning's file, and returns\n"
         "what `sinew tune --json` prints. Every run is kept in the file `results`, with which a\n"
         "tuning that was interrupted continues. `generations` replaces the file's number.\n"
-        "`threads` and `progress` are those of sweep(). Raises InputError, and RuntimeError where\n"
+        "`threads`, `progress` and `device` are those of sweep(). Raises InputError, and "
+        "RuntimeError where\n"
         "the library was built without pagmo.");
 }
 

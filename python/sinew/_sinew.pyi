@@ -274,6 +274,7 @@ def sweep(
     ranges: Union[Sequence[str], str] = ...,
     points: int = 0,
     progress: Optional[Callable[[int, int], object]] = None,
+    device: str = "auto",
 ) -> List[Dict[str, Any]]: ...
 class Ensemble:
     def __init__(
@@ -297,9 +298,10 @@ class Ensemble:
         *,
         threads: int = 0,
         progress: Optional[Callable[[int, int], object]] = None,
+        device: str = "auto",
     ) -> Tuple[numpy.typing.NDArray[numpy.float64], List[str]]: ...
     def __call__(
-        self, values: numpy.typing.ArrayLike, *, threads: int = 0
+        self, values: numpy.typing.ArrayLike, *, threads: int = 0, device: str = "auto"
     ) -> numpy.typing.NDArray[numpy.float64]: ...
 
 def tune(
@@ -310,6 +312,7 @@ def tune(
     generations: int = 0,
     threads: int = 0,
     progress: Optional[Callable[[int, int], object]] = None,
+    device: str = "auto",
 ) -> Dict[str, Any]: ...
 def export_fmu(
     file: _Path,

@@ -24,7 +24,7 @@ class Sweep(unittest.TestCase):
         )  # fmt: skip
         vary = [f"{GAIN}=0.02:0.1:5 %/count", "joint.knee.enabled=true,false"]
         for threads in (1, 3):
-            rows = sinew.sweep(AIR, vary, report=ERROR, threads=threads)
+            rows = sinew.sweep(AIR, vary, report=ERROR, threads=threads, device="cpu")
             self.assertEqual(rows, said["rows"], threads)
 
     def test_arrays_are_in_si(self) -> None:
@@ -65,7 +65,7 @@ class Ensemble(unittest.TestCase):
         self.assertEqual(ensemble.units, ["1/count", ""])
         values = numpy.array([[4e-4, 1], [6e-4, 2], [6e-4, 3]])
         for threads in (1, 3):
-            figures = ensemble(values, threads=threads)
+            figures = ensemble(values, threads=threads, device="cpu")
             self.assertEqual(figures.shape, (3, 3))
             self.assertTrue(numpy.isnan(figures[:, 2]).all())
             for row, (gain, seed) in zip(figures, values):
@@ -154,6 +154,8 @@ class Wrong(Refusals):
                 (lambda: swept({}, seeds=-1), ValueError, "seeds: found -1"),
                 (lambda: swept({}, threads=-2), ValueError, "threads: found -2"),
                 (lambda: swept({}, threads="all"), TypeError, "threads"),
+                (lambda: swept({}, device="tpu"), sinew.InputError, "expected auto, cpu, gpu or gpu:N"),
+                (lambda: swept({}, device="gpu:99"), RuntimeError, "found no graphics card"),
                 (lambda: swept({}, points=-1), ValueError, "points: found -1"),
                 (lambda: swept({}, where="x <"), sinew.InputError, "where"),
                 (lambda: swept({}, largest="x"), sinew.InputError, "largest"),

@@ -178,8 +178,8 @@ Row row_of(const Sweep& s, const Points& points, std::size_t index, bool first) 
 // Runs the points that next() returns, until it returns none, many in parallel, and passes their
 // rows to done(). A search runs by itself, since each run depends on the one before.
 template <class Next, class Done>
-void run_in_thread(const Sweep& s, const Points& points, int lanes, const Next& next,
-                   const Done& done) {
+void run_in_thread(const Sweep& s, const Points& points, int lanes, const run::Device& device,
+                   const Next& next, const Done& done) {
   if (s.largest) {
     while (const std::optional<std::size_t> index = next()) done(row_of(s, points, *index, false));
     return;
@@ -191,7 +191,7 @@ void run_in_thread(const Sweep& s, const Points& points, int lanes, const Next& 
   const auto result = [&](std::size_t index, const RunResult& its) {
     done(single(s, index, points.at(index), its, false));
   };
-  run::run_many({.next = next, .begin = begin, .done = result, .lanes = lanes});
+  run::run_many({.next = next, .begin = begin, .done = result, .lanes = lanes, .device = device});
 }
 
 // Runs these points on threads and passes their rows to done(), one at a time. Begins no further
@@ -212,8 +212,8 @@ void run_points(const Sweep& s, const Points& points, std::span<const std::size_
   const std::size_t threads = std::min(static_cast<std::size_t>(how.threads), numbers.size());
   const int lanes = run::lanes_of(numbers.size(), threads, how.lanes);
   host::side_by_side(
-      threads, [&](std::size_t) { run_in_thread(s, points, lanes, next, hand_back); }, nullptr,
-      how.threads);
+      threads, [&](std::size_t) { run_in_thread(s, points, lanes, how.device, next, hand_back); },
+      nullptr, how.threads);
 }
 
 // --- all points ---
@@ -334,6 +334,7 @@ std::size_t points(const Sweep& s) {
 
 std::vector<Row> sweep(const Sweep& s, const Options& options) {
   if (!options.checked) check(s);
+  run::require_card(options.device);
   Work work(s, options);
   if (!options.checked) work.first();
   work.others();
@@ -350,9 +351,9 @@ struct Runner::Drawn {
 Runner::Runner(const Sweep& s) : drawn_(std::make_unique<Drawn>(s)) {}
 Runner::~Runner() = default;
 
-void Runner::run(std::span<const std::size_t> points, int threads,
+void Runner::run(std::span<const std::size_t> points, int threads, const run::Device& device,
                  const std::function<void(Row)>& done) const {
-  run_points(drawn_->sweep, drawn_->points, points, {.threads = threads}, done);
+  run_points(drawn_->sweep, drawn_->points, points, {.threads = threads, .device = device}, done);
 }
 
 }  // namespace sinew::tune

@@ -108,7 +108,8 @@ Share parse_share(std::string_view text);
 // `row` and `done` are called for one row at a time and must not throw.
 struct Options {
   int threads = 1;
-  int lanes = 8;  // runs in parallel per thread, at most; the rows are the same
+  int lanes = 8;            // runs in parallel per thread, at most; the rows are the same
+  run::Device device = {};  // the processor or a card; the rows are the same
   const std::atomic<bool>* stop = nullptr;        // true: no further runs are begun
   std::atomic<std::int64_t>* progress = nullptr;  // completed points
   std::function<void(const Row&)> row = {};       // called for each row of the table, in order
@@ -148,8 +149,9 @@ std::shared_ptr<run::Ensembles> ensembles_of(const Sweep&);
 // unit, or if there are more than most_points. Runs nothing.
 void check(const Sweep&);
 
-// Checks and runs the sweep. Throws after its first run if the summary lacks a key that is probably
-// misspelt. Returns the completed rows and the known ones, in the points' order.
+// Checks and runs the sweep. Throws std::runtime_error for a card that cannot be used, and after
+// its first run config::Error if the summary lacks a key that is probably misspelt. Returns the
+// completed rows and the known ones, in the points' order.
 //
 // All runs of one call use the files as they were when the first of these runs read them, also if a
 // file is edited meanwhile. This holds for the experiment, its base, the robot and the robot's
@@ -166,7 +168,7 @@ class Runner {
   ~Runner();
 
   // `done` is called for one row at a time, and must not throw.
-  void run(std::span<const std::size_t> points, int threads,
+  void run(std::span<const std::size_t> points, int threads, const run::Device& device,
            const std::function<void(Row)>& done) const;
 
  private:

@@ -325,6 +325,7 @@ std::vector<std::string> Ensemble::run(std::span<const double> values, std::span
     throw std::invalid_argument(
         fmt::format("found {} values and room for {} figures; expected {} and {} for each run",
                     values.size(), figures.size(), width, wide));
+  require_card(options.device);
   std::ranges::fill(figures, std::numeric_limits<double>::quiet_NaN());
   std::vector<std::string> status(rows, "not run");
   std::atomic<std::size_t> taken{0};
@@ -350,7 +351,9 @@ std::vector<std::string> Ensemble::run(std::span<const double> values, std::span
   const int lanes = lanes_of(rows, threads, options.lanes);
   host::side_by_side(
       threads,
-      [&](std::size_t) { run_many({.next = next, .begin = begin, .done = done, .lanes = lanes}); },
+      [&](std::size_t) {
+        run_many({next, begin, done, lanes, options.device});
+      },
       nullptr, static_cast<int>(threads));
   if (const std::exception_ptr wrong = misspelt()) std::rethrow_exception(wrong);
   return status;

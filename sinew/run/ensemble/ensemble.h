@@ -26,6 +26,7 @@
 #include "sinew/config/compose.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/experiment/numbers.h"
+#include "sinew/run/ensemble/device.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/units/constants.h"
 
@@ -59,14 +60,16 @@ class Ensemble {
   struct Options {
     int threads = 0;                                // 0: one per core
     int lanes = 8;                                  // runs side by side in a thread, at most
+    Device device = {};                             // the processor or a card
     const std::atomic<bool>* stop = nullptr;        // true: no further runs are begun
     std::atomic<std::int64_t>* progress = nullptr;  // completed runs
   };
   // Runs one experiment per row of `values` (parameters, in SI) and writes its figures (in SI; NaN:
   // the run has no such figure) to the row of `figures`. Returns the status of each run: "ok", or
-  // why it has no figures; "not run" after a stop. The results do not depend on threads, lanes and
-  // other rows. Several threads may call it. Throws std::invalid_argument if the sizes do not
-  // match, and config::Error for a figure that is probably misspelt, which the first runs show.
+  // why it has no figures; "not run" after a stop. The results do not depend on threads, lanes,
+  // device and other rows. Several threads may call it. Throws std::invalid_argument if the sizes
+  // do not match, std::runtime_error for a card that cannot be used, and config::Error for a figure
+  // that is probably misspelt, which the first runs show.
   std::vector<std::string> run(std::span<const double> values, std::span<double> figures,
                                const Options& options) const;
   std::vector<std::string> run(std::span<const double> values, std::span<double> figures) const {

@@ -81,6 +81,7 @@ void run_many(const Many& many) {
                 return ended.run.ensemble->result(std::move(ended.run.member), outcome);
               }));
   };
+  // Every run is made in lanes of the processor, whatever many.device is.
   run_in_lanes({.next = next, .done = done, .most = many.lanes, .topics = topics});
 }
 

@@ -13,6 +13,7 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/run/card/batch.h"
+#include "sinew/run/ensemble/device.h"
 #include "sinew/run/ensemble/ensemble.h"
 
 namespace sinew::run {
@@ -30,7 +31,8 @@ struct Many {
   std::function<BegunRun(std::size_t)> begin;
   // Receives the results, in any order. Must not throw.
   std::function<void(std::size_t, RunResult)> done;
-  int lanes = 8;  // largest number; 1: one after the other
+  int lanes = 8;       // largest number; 1: one after the other
+  Device device = {};  // the processor or a card; require_card() has been called
 };
 // Runs all in this thread (run/simulation/lanes.h). Each result has the wanted figures of the
 // same single run.

@@ -235,7 +235,9 @@ Master::~Master() {
   }
 }
 
-void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads) {
+void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads,
+          const run::Device& device) {
+  run::require_card(device);
   std::unique_ptr<Runner> runner;
   for (;;) {
     const auto message = ranks.receive(60);
@@ -248,7 +250,7 @@ void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads) 
     }
     std::vector<std::size_t> points;
     for (const Json& point : json.at("points").list()) points.push_back(point.natural());
-    runner->run(points, threads, [&](const Row& row) {
+    runner->run(points, threads, device, [&](const Row& row) {
       ranks.send(0, packed({{"row", json_of(row)}}));
     });
   }

@@ -88,7 +88,8 @@ class Master {
 };
 
 // Runs points until the master releases this worker. `sweep` is called when there are points to
-// run.
-void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads);
+// run. Throws std::runtime_error for a card that cannot be used.
+void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads,
+          const run::Device& device = {});
 
 }  // namespace sinew::tune

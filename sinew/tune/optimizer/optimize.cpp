@@ -46,6 +46,7 @@ class Reporter {
 
 Tuned optimize_and_store(const Tuning& tuning, const std::filesystem::path& file,
                          const StoredTuningOptions& options) {
+  run::require_card(options.tune.runs.device);
   Results results(file, request_of(tuning));
   results.expect(points(tuning.runs));
   TuneOptions own = options.tune;

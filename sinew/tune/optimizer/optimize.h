@@ -28,7 +28,8 @@ struct Candidate {
 };
 
 struct TuneOptions {
-  // Threads, lanes, stop, progress, done and known as in a sweep, with the tuning's own points.
+  // Threads, lanes, device, stop, progress, done and known as in a sweep, with the tuning's own
+  // points.
   Options runs;
   // Returns the function that runs a generation elsewhere, which replaces the threads here.
   std::function<decltype(Options::dispatch)(const Sweep&)> dispatch = {};
