@@ -351,8 +351,8 @@ struct Runner::Drawn {
 Runner::Runner(const Sweep& s) : drawn_(std::make_unique<Drawn>(s)) {}
 Runner::~Runner() = default;
 
-void Runner::run(std::span<const std::size_t> points, int threads, const run::Device& device,
-                 const std::function<void(Row)>& done) const {
+void Runner::run(std::span<const std::size_t> points, int threads,
+                 const std::function<void(Row)>& done, const run::Device& device) const {
   run_points(drawn_->sweep, drawn_->points, points, {.threads = threads, .device = device}, done);
 }
 

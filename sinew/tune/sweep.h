@@ -168,8 +168,8 @@ class Runner {
   ~Runner();
 
   // `done` is called for one row at a time, and must not throw.
-  void run(std::span<const std::size_t> points, int threads, const run::Device& device,
-           const std::function<void(Row)>& done) const;
+  void run(std::span<const std::size_t> points, int threads, const std::function<void(Row)>& done,
+           const run::Device& device = {}) const;
 
  private:
   struct Drawn;

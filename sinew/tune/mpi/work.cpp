@@ -250,9 +250,8 @@ void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads,
     }
     std::vector<std::size_t> points;
     for (const Json& point : json.at("points").list()) points.push_back(point.natural());
-    runner->run(points, threads, device, [&](const Row& row) {
-      ranks.send(0, packed({{"row", json_of(row)}}));
-    });
+    const auto done = [&](const Row& row) { ranks.send(0, packed({{"row", json_of(row)}})); };
+    runner->run(points, threads, done, device);
   }
   ranks.send(0, packed({{"end", true}}));
 }
