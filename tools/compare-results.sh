@@ -16,7 +16,7 @@
 # Tables are not committed; make one with the earlier build.
 #
 # compare prints a line for each result that differs, is missing or is new, then a summary. It exits with 1
-# if there is any, except for logs, which are counted only.
+# if there is any, except for logs and state hashes, which are counted only.
 #
 # SINEW: the program, by default build/release/bin/sinew. JOBS: number of parallel runs, by default 1. ONLY:
 # experiment files, by default all of experiments/.
@@ -92,7 +92,7 @@ function difference(a, b,   larger) {
 
 # Compares one result, prints it if it differs, and counts it.
 function compare(key, a, b,   off, kind) {
-  kind = key ~ / log$/ ? "logs" : key ~ / verdict / ? "verdicts" : "results"
+  kind = key ~ / (log|state_hash)$/ ? "logs" : key ~ / verdict / ? "verdicts" : "results"
   ++all[kind]
   off = is_number(a) && is_number(b) ? difference(a, b) : (a != b)
   if (off > most && kind == "results") { most = off; where = " (" key ")" }

@@ -1,10 +1,12 @@
 #include "sinew/analysis/summary.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "sinew/analysis/figures.h"
 #include "sinew/analysis/record/derived.h"
+#include "sinew/analysis/state_hash.h"
 #include "sinew/analysis/warnings.h"
 
 namespace sinew::analysis {
@@ -33,6 +35,13 @@ void add_figures(Figures& figures, const signals::Table& table, const signals::T
 
 namespace {
 
+// Returns whether the table has true values, which only a simulation has.
+bool is_simulated(const signals::Table& table) {
+  return std::ranges::any_of(table.series, [](const signals::Series& series) {
+    return series.topic.name.starts_with("/true/");
+  });
+}
+
 Summary summary_of(const Analysis& a) {
   const bool whole = a.ended.empty();
   Summary summary;
@@ -49,6 +58,7 @@ Summary summary_of(const Analysis& a) {
       add_supervision(figures);
     }
   }
+  if (whole && a.table.complete && is_simulated(a.table)) summary.state_hash = state_hash(a.table);
   summary.cut_off = !a.table.complete;
   return summary;
 }

@@ -100,6 +100,7 @@ std::string to_json(const Summary& summary, const Host& host) {
   root["format"] = "sinew.summary/1";
   root["title"] = summary.title;
   if (!summary.reproduces.empty()) root["reproduces"] = summary.reproduces;
+  if (!summary.state_hash.empty()) root["state_hash"] = summary.state_hash;
   if (summary.cut_off) root["cut_off"] = true;
   for (const Entry& e : summary.entries()) put(root, e.key, e.value);
   if (!summary.faults.empty()) root["faults"] = to_json(summary.faults);

@@ -113,7 +113,8 @@ class Summary {
  public:
   std::string title;
   std::string reproduces;
-  bool cut_off = false;               // the log was cut off: figures of a part of the run
+  std::string state_hash;  // of all samples (state_hash.h); empty: no whole simulated run
+  bool cut_off = false;    // the log was cut off: figures of a part of the run
   std::vector<std::string> warnings;  // events that no figure shows, from the log alone
   std::vector<MachineFault> faults;   // those that began before the log's end
 
@@ -143,10 +144,10 @@ struct Host {
   std::vector<std::string> warnings;
 };
 
-// Returns summary.json: format, title, cut_off if it is true, the keys as nested objects in the
-// summary's order, `faults` and `warnings` if there are any, `host` last. Numbers have the fewest
-// digits that read back to the same bits. It has no dates, and only `host`, which comparisons leave
-// out, depends on the computer.
+// Returns summary.json: format, title, state_hash unless it is empty, cut_off if it is true, the
+// keys as nested objects in the summary's order, `faults` and `warnings` if there are any, `host`
+// last. Numbers have the fewest digits that read back to the same bits. It has no dates, and only
+// `host`, which comparisons leave out, depends on the computer.
 std::string to_json(const Summary&, const Host& host = {});
 
 }  // namespace sinew::analysis
