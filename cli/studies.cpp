@@ -49,6 +49,15 @@ struct SweepRuns {
   tune::TableFile* csv = nullptr;  // takes the rows, as they come where no other file keeps them
 };
 
+// Returns the device of this many runs, and prints which card it is.
+run::Device device_of(const RunsOptions& options, std::size_t runs, const Messages& messages) {
+  run::Device device = run::chosen(run::parse_device(options.device));
+  if (device.card && (device.kind == run::Device::Kind::gpu || runs >= run::fewest_on_card))
+    messages.note("runs on " + run::name_of(device) +
+                  ", and on the processor what it does not hold");
+  return device;
+}
+
 // Runs what other processes of mpirun hand out, unless this process is the first one or alone: then
 // it returns false. `sweep` returns the sweep of this command line. A signal is for the first
 // process, which then ends this one.
@@ -66,7 +75,7 @@ bool is_worker_of(const tune::Ranks& ranks, const RunsOptions& options,
 std::vector<tune::Row> run_rows(const tune::Sweep& s, const SweepRuns& how) {
   const std::string& file = how.options.results;
   tune::Options options{.threads = host::threads_of(how.options.threads),
-                        .device = run::parse_device(how.options.device)};
+                        .device = device_of(how.options, tune::points(s), how.messages)};
   if (!how.options.shard.empty()) options.share = tune::parse_share(how.options.shard);
   std::optional<tune::Results> results;
   tune::open_results(s, file, options, results, how.messages.notices());
@@ -205,7 +214,7 @@ tune::Tuned run_tuning(const tune::Tuning& tuning, const TuneOptions& options, t
   Interrupt interrupt;
   tune::StoredTuningOptions kept{
       .tune = {.runs = {.threads = host::threads_of(options.runs.threads),
-                        .device = run::parse_device(options.runs.device)}},
+                        .device = device_of(options.runs, tuning.method.population, messages)}},
       .ask_to_stop = [&] { interrupt.request(); },
       .notices = messages.notices()};
   kept.tune.runs.stop = &interrupt.requested();

@@ -3,6 +3,8 @@
 #include <dlfcn.h>
 
 #include <array>
+#include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -99,10 +101,16 @@ Library open_library() {
   return out;
 }
 
-// Opened once and never closed.
+// Opened once and never closed. A driver that was not found may be there at the next call.
 const Library& library() {
-  static const Library all = open_library();
-  return all;
+  static std::mutex mutex;
+  static std::optional<const Library> opened;
+  thread_local Library missing;
+  const std::lock_guard lock(mutex);
+  if (opened) return *opened;
+  missing = open_library();
+  if (!missing.problem.empty()) return missing;
+  return opened.emplace(missing);
 }
 
 // --- errors ---

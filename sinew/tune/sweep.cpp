@@ -175,27 +175,9 @@ Row row_of(const Sweep& s, const Points& points, std::size_t index, bool first) 
   return single(s, index, std::move(point), result, first);
 }
 
-// Runs the points that next() returns, until it returns none, many in parallel, and passes their
-// rows to done(). A search runs by itself, since each run depends on the one before.
-template <class Next, class Done>
-void run_in_thread(const Sweep& s, const Points& points, int lanes, const run::Device& device,
-                   const Next& next, const Done& done) {
-  if (s.largest) {
-    while (const std::optional<std::size_t> index = next()) done(row_of(s, points, *index, false));
-    return;
-  }
-  const auto begin = [&](std::size_t index) {
-    const Point point = points.at(index);
-    return points.runs().begin(point.experiment, point.sets);
-  };
-  const auto result = [&](std::size_t index, const RunResult& its) {
-    done(single(s, index, points.at(index), its, false));
-  };
-  run::run_many({.next = next, .begin = begin, .done = result, .lanes = lanes, .device = device});
-}
-
-// Runs these points on threads and passes their rows to done(), one at a time. Begins no further
-// one once it is stopped.
+// Runs these points on threads, or on a card, and passes their rows to done(), one at a time.
+// Begins no further one once it is stopped. A search runs by itself, since each run depends on the
+// one before.
 void run_points(const Sweep& s, const Points& points, std::span<const std::size_t> numbers,
                 const Options& how, const std::function<void(Row)>& done) {
   std::atomic<std::size_t> taken{0};
@@ -209,11 +191,23 @@ void run_points(const Sweep& s, const Points& points, std::span<const std::size_
     const std::lock_guard lock(mutex);
     done(std::move(row));
   };
-  const std::size_t threads = std::min(static_cast<std::size_t>(how.threads), numbers.size());
-  const int lanes = run::lanes_of(numbers.size(), threads, how.lanes);
-  host::side_by_side(
-      threads, [&](std::size_t) { run_in_thread(s, points, lanes, how.device, next, hand_back); },
-      nullptr, how.threads);
+  if (s.largest) {
+    const auto search = [&](std::size_t) {
+      while (const std::optional<std::size_t> index = next())
+        hand_back(row_of(s, points, *index, false));
+    };
+    const std::size_t threads = std::min(static_cast<std::size_t>(how.threads), numbers.size());
+    return host::side_by_side(threads, search, nullptr, how.threads);
+  }
+  const auto begin = [&](std::size_t index) {
+    const Point point = points.at(index);
+    return points.runs().begin(point.experiment, point.sets);
+  };
+  const auto result = [&](std::size_t index, const RunResult& its) {
+    hand_back(single(s, index, points.at(index), its, false));
+  };
+  run::run_on(how.device, numbers.size(),
+              {.next = next, .begin = begin, .done = result, .lanes = how.lanes}, how.threads);
 }
 
 // --- all points ---
@@ -334,8 +328,9 @@ std::size_t points(const Sweep& s) {
 
 std::vector<Row> sweep(const Sweep& s, const Options& options) {
   if (!options.checked) check(s);
-  run::require_card(options.device);
-  Work work(s, options);
+  Options its = options;
+  its.device = run::chosen(options.device);
+  Work work(s, its);
   if (!options.checked) work.first();
   work.others();
   return work.finish();

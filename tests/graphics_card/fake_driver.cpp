@@ -27,8 +27,8 @@
 #include <string>
 #include <vector>
 
-// The kernel for one thread, compiled for the processor. Null in a build without it.
-extern "C" [[gnu::weak]] void sinew_walk_on_processor(void** parameters, long thread);
+// The kernel for one thread, compiled for the processor.
+extern "C" void sinew_walk_on_processor(void** parameters, long thread);
 
 namespace {
 

@@ -56,6 +56,11 @@ class Prepared {
     return records_edges_ ? static_cast<std::int32_t>(8 * controllers_.most_edges(last_)) : 0;
   }
 
+  // Returns the memory of its plan's table [byte].
+  std::size_t plan_size() const {
+    return static_cast<std::size_t>(last_ / controllers_.scan().period + 1) * PlanTable::row_size;
+  }
+
   // Returns its walk with the commands of this plan, which begin at this place among all.
   Walk take_walk(std::shared_ptr<const PlanTable> plan, std::int64_t first) {
     plan_ = std::move(plan);
@@ -220,45 +225,98 @@ void launch_on_processor(const Batched& batched) {
        batched.edges, static_cast<std::int64_t>(batched.walks.size()), batched.sample.data(),
        batched.edge.data()}};
   for (std::size_t i = 0; i < batched.walks.size(); ++i)
-    batched.walks[i].run(launch, static_cast<std::int64_t>(i), [](bool x) { return x; });
+    batched.walks[i].run(launch, static_cast<std::int64_t>(i), true, [](bool x) { return x; });
 }
 
+namespace {
+
+// The memory of one launch.
+class Part {
+ public:
+  // Takes the walks of these runs, with room for their samples and edges.
+  Part(std::span<Prepared* const> runs, std::span<const std::uint16_t> wanted, int threads)
+      : runs_(runs), threads_(threads), commands_(take_walks(runs, threads, walks_)) {
+    batched_.walks = walks_;
+    batched_.commands = commands_;
+    batched_.wanted = wanted;
+    for (const Prepared* run : runs) {
+      batched_.samples = std::max(batched_.samples, run->samples());
+      batched_.edges = std::max(batched_.edges, run->edges());
+    }
+    sample_.resize(walks_.size() * wanted.size() * static_cast<std::size_t>(batched_.samples));
+    edge_.resize(walks_.size() * static_cast<std::size_t>(batched_.edges));
+    batched_.sample = sample_;
+    batched_.edge = edge_;
+  }
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
+
+  // Returns the outcomes of its runs after a launch.
+  std::vector<std::optional<Outcome>> outcomes(const Launcher& launcher) {
+    launcher.launch(batched_);
+    std::vector<std::optional<Outcome>> out(runs_.size());
+    host::side_by_side(
+        runs_.size(), [&](std::size_t i) { out[i] = runs_[i]->outcome(walks_[i], batched_, i); },
+        nullptr, threads_);
+    const auto first = std::ranges::find_if(out, [](const auto& its) { return its.has_value(); });
+    if (first != out.end())
+      compare_with_alone(runs_[static_cast<std::size_t>(first - out.begin())]->run(), **first);
+    return out;
+  }
+
+ private:
+  std::span<Prepared* const> runs_;
+  int threads_;
+  std::vector<Walk> walks_;
+  std::vector<control::Command> commands_;
+  Batched batched_{};
+  std::vector<std::uint64_t> sample_;
+  std::vector<std::uint32_t> edge_;
+};
+
+// Returns the number of the first runs that fit in this memory [byte], at least 1.
+std::size_t runs_in(std::size_t memory, std::span<Prepared* const> runs, std::size_t words) {
+  std::set<std::string> plans;
+  std::size_t used = 0, count = 0;
+  for (const Prepared* run : runs) {
+    const auto samples = static_cast<std::size_t>(run->samples());
+    used += sizeof(Walk) + samples * words * sizeof(std::uint64_t) +
+            static_cast<std::size_t>(run->edges()) * sizeof(std::uint32_t);
+    if (plans.insert(run->run().plan).second) used += run->plan_size();
+    if (used > memory) break;
+    ++count;
+  }
+  return std::max<std::size_t>(1, count);
+}
+
+}  // namespace
+
 std::vector<std::optional<Outcome>> run_batch(std::span<const BatchedRun> runs,
-                                              const Launcher& launch, int threads) {
+                                              const Launcher& launcher, int threads) {
   std::vector<std::unique_ptr<Prepared>> all(runs.size());
-  const auto each = [&](std::size_t count, const auto& work) {
-    host::side_by_side(count, work, nullptr, threads);
-  };
-  each(runs.size(), [&](std::size_t i) { all[i] = prepare(runs[i]); });
+  host::side_by_side(
+      runs.size(), [&](std::size_t i) { all[i] = prepare(runs[i]); }, nullptr, threads);
   std::vector<Prepared*> held;
-  for (const auto& run : all)
-    if (run) held.push_back(run.get());
+  std::vector<std::size_t> place;  // of each one in `runs`
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!all[i]) continue;
+    held.push_back(all[i].get());
+    place.push_back(i);
+  }
   std::vector<std::optional<Outcome>> out(runs.size());
   if (held.empty()) return out;
 
-  std::vector<Walk> walks;
-  const std::vector<control::Command> commands = take_walks(held, threads, walks);
   const std::vector<std::uint16_t> wanted = wanted_words(held);
-  Batched batched{.walks = {}, .commands = commands, .wanted = wanted, .sample = {}, .edge = {}};
-  for (const Prepared* run : held) {
-    batched.samples = std::max(batched.samples, run->samples());
-    batched.edges = std::max(batched.edges, run->edges());
+  for (std::size_t first = 0, count = 0; first < held.size(); first += count) {
+    const std::span<Prepared* const> rest = std::span<Prepared* const>(held).subspan(first);
+    count = runs_in(launcher.memory(), rest, wanted.size());
+    std::vector<std::optional<Outcome>> ended =
+        Part(rest.first(count), wanted, threads).outcomes(launcher);
+    for (std::size_t i = 0; i < count; ++i) {
+      out[place[first + i]] = std::move(ended[i]);
+      all[place[first + i]].reset();
+    }
   }
-  batched.walks = walks;
-  std::vector<std::uint64_t> sample(walks.size() * wanted.size() *
-                                    static_cast<std::size_t>(batched.samples));
-  std::vector<std::uint32_t> edge(walks.size() * static_cast<std::size_t>(batched.edges));
-  batched.sample = sample;
-  batched.edge = edge;
-  launch(batched);
-
-  std::vector<std::optional<Outcome>> ended(held.size());
-  each(held.size(), [&](std::size_t i) { ended[i] = held[i]->outcome(walks[i], batched, i); });
-  const auto first = std::ranges::find_if(ended, [](const auto& its) { return its.has_value(); });
-  if (first != ended.end())
-    compare_with_alone(held[static_cast<std::size_t>(first - ended.begin())]->run(), **first);
-  for (std::size_t i = 0, k = 0; i < runs.size(); ++i)
-    if (all[i]) out[i] = std::move(ended[k++]);
   return out;
 }
 

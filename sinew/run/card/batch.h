@@ -25,8 +25,13 @@ struct Batched {
   std::span<std::uint64_t> sample;
   std::span<std::uint32_t> edge;
 };
-// Runs all of them to their ends. Throws std::runtime_error if it fails.
-using Launcher = std::function<void(const Batched&)>;
+// What runs them.
+struct Launcher {
+  // Runs all of them to their ends. Throws std::runtime_error if it cannot.
+  std::function<void(const Batched&)> launch;
+  // Returns the memory that a launch may take [byte].
+  std::function<std::size_t()> memory = [] { return std::size_t{1} << 30; };
+};
 
 // Runs them on the processor, one after the other.
 void launch_on_processor(const Batched& batched);
@@ -46,8 +51,9 @@ bool fits_batch(const experiment::Experiment& experiment);
 
 // Returns the outcome of each run, with the bits of run(). Nothing for a run that does not fit, or
 // that did not end as planned: it is to be run by itself. Prepares and finishes the runs on
-// threads. Throws what `launch` throws.
+// threads. One run of each launch is also computed by run() and compared; throws std::runtime_error
+// if its bits differ, and what the launcher throws.
 std::vector<std::optional<Outcome>> run_batch(std::span<const BatchedRun> runs,
-                                              const Launcher& launch, int threads);
+                                              const Launcher& launcher, int threads);
 
 }  // namespace sinew::run

@@ -82,7 +82,7 @@ TEST(Batch, WalksHaveTheBitsOfRunsAlone) {
   std::vector<BatchedRun> runs;
   for (std::size_t i = 0; i < members.size(); ++i)
     runs.push_back({&members[i]->experiment, nullptr, std::to_string(i % 16)});
-  const auto outcomes = run_batch(runs, launch_on_processor, 2);
+  const auto outcomes = run_batch(runs, {launch_on_processor}, 2);
   int held = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (!outcomes[i]) continue;

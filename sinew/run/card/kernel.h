@@ -10,16 +10,14 @@ namespace sinew::run {
 // Threads of a block. All of them meet at each node, so that they execute the same instructions.
 inline constexpr unsigned kernel_threads = 128;
 
-// Runs walks[i] with meet(x) among the threads of a block; surplus threads run copies of the last
-// one, and write nothing.
+// Runs walks[i] with meet(x) among the threads of a block; surplus threads only meet the others.
 template <class Meet>
 void run_thread(Walk* walks, const Launch& launch, std::int64_t i, const Meet& meet) {
-  const std::int64_t number = i < launch.kept.runs ? i : launch.kept.runs - 1;
-  Launch its = launch;
-  if (i >= launch.kept.runs) its.kept.samples = its.kept.edges = 0;
-  Walk walk = walks[number];
-  walk.run(its, number, meet);
-  if (i < launch.kept.runs) walks[number] = walk;
+  const bool runs = i < launch.kept.runs;
+  const std::int64_t number = runs ? i : launch.kept.runs - 1;
+  Walk walk = walks[number];  // in the thread's own memory
+  walk.run(launch, number, runs, meet);
+  if (runs) walks[number] = walk;
 }
 
 }  // namespace sinew::run

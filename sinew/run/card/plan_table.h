@@ -19,6 +19,8 @@ bool measures(const gait::Plan& plan);
 
 class PlanTable {
  public:
+  static constexpr std::size_t row_size = sizeof(control::Command) + sizeof(gait::Desired);
+
   // Takes the controllers of an experiment at their start, whose plan must not measure, and the
   // ticks of its run. The robot must have one leg and one board.
   PlanTable(const Controllers& controllers, signals::Tick last);

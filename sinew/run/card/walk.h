@@ -134,10 +134,10 @@ class Walk {
 
   // --- on the processor or a card ---
 
-  // Runs it to its end. meet(x) returns whether x holds for any run that is computed together with
-  // this one; each calls it equally often.
+  // Runs it to its end if it `begins`. meet(x) returns whether x holds for any run that is computed
+  // together with this one; each calls it equally often.
   template <class Meet>
-  void run(const Launch& launch, std::int64_t number, const Meet& meet) noexcept;
+  void run(const Launch& launch, std::int64_t number, bool begins, const Meet& meet) noexcept;
 
   // --- after the run ---
 
@@ -241,11 +241,11 @@ inline double Walk::turn(Watch& watch) noexcept {
 }
 
 template <class Meet>
-void Walk::run(const Launch& launch, std::int64_t number, const Meet& meet) noexcept {
+void Walk::run(const Launch& launch, std::int64_t number, bool begins, const Meet& meet) noexcept {
   table_.rows.row = launch.commands + plan_;
   Watch watch{*this, launch.kept, number};
   double until = 0;
-  for (bool runs = true; meet(runs);) {
+  for (bool runs = begins; meet(runs);) {
     if (runs) until = turn(watch);
     runs = runs && until < finished_;
     for (;;) {

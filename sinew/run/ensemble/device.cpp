@@ -28,9 +28,12 @@ Device parse_device(std::string_view text) {
                config::closest_in_quotes(text, {"auto", "cpu", "gpu"}));
 }
 
-void require_card(const Device& device) {
-  if (device.kind != Device::Kind::gpu) return;
-  const auto refuse = [&](const std::string& found) {
+Device chosen(const Device& device) {
+  using Kind = Device::Kind;
+  if (device.kind == Kind::cpu || device.card) return device;
+  const bool automatic = device.kind == Kind::automatic;
+  const auto refuse = [&](const std::string& found) -> Device {
+    if (automatic) return {.kind = Kind::cpu};
     throw std::runtime_error(
         fmt::format("found {}; expected a usable one for device=gpu:{}; try device=cpu, or "
                     "device=auto",
@@ -38,12 +41,21 @@ void require_card(const Device& device) {
   };
   std::string problem;
   const std::vector<card::Properties> cards = card::list(problem);
-  if (cards.empty()) refuse("no graphics card: " + problem);
-  if (std::ranges::find(cards, device.number, &card::Properties::number) == cards.end())
-    refuse(fmt::format("no graphics card of this number, but {} other{}", cards.size(),
-                       cards.size() == 1 ? "" : "s"));
+  if (cards.empty()) return refuse("no graphics card: " + problem);
+  const auto its = automatic ? cards.begin()
+                             : std::ranges::find(cards, device.number, &card::Properties::number);
+  if (its == cards.end())
+    return refuse(fmt::format("no graphics card of this number, but {} other{}", cards.size(),
+                              cards.size() == 1 ? "" : "s"));
   if (card::walk_ptx().empty())
-    refuse("a build without a program for graphics cards, which sinew doctor describes");
+    return refuse("a build without a program for graphics cards, which sinew doctor describes");
+  return {device.kind, its->number, std::make_shared<Card>(*its)};
+}
+
+std::string name_of(const Device& device) {
+  if (!device.card) return "";
+  const card::Properties& its = device.card->properties();
+  return fmt::format("{} (card {})", its.name, its.number);
 }
 
 }  // namespace sinew::run

@@ -2,8 +2,11 @@
 // graphics card. The figures have the same bits.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
+
+#include "sinew/run/card/on_card.h"
 
 namespace sinew::run {
 
@@ -14,15 +17,23 @@ struct Device {
     gpu,        // this card; runs that it does not hold are made by the processor
   };
   Kind kind = Kind::automatic;
-  int number = 0;  // number of the card, from 0
+  int number = 0;                   // number of the card, from 0
+  std::shared_ptr<Card> card = {};  // once it has been chosen; copies use the same one
 
-  bool operator==(const Device&) const = default;
+  bool operator==(const Device& other) const {
+    return kind == other.kind && number == other.number;
+  }
 };
 
 // Parses "auto", "cpu", "gpu" or "gpu:1". Throws config::Error that begins with "device".
 Device parse_device(std::string_view text);
 
-// Throws std::runtime_error if the device is a card that this computer or this build cannot use.
-void require_card(const Device& device);
+// Returns the device with its card, and an automatic one as what it chooses: the first card if it
+// is usable, else the processor. Throws std::runtime_error if the device is a card that this
+// computer or this build cannot use.
+Device chosen(const Device& device);
+
+// Returns the name of a chosen device's card, "NVIDIA H200 (card 0)"; empty for the processor.
+std::string name_of(const Device& device);
 
 }  // namespace sinew::run

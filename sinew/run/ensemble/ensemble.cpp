@@ -325,7 +325,7 @@ std::vector<std::string> Ensemble::run(std::span<const double> values, std::span
     throw std::invalid_argument(
         fmt::format("found {} values and room for {} figures; expected {} and {} for each run",
                     values.size(), figures.size(), width, wide));
-  require_card(options.device);
+  const Device device = chosen(options.device);
   std::ranges::fill(figures, std::numeric_limits<double>::quiet_NaN());
   std::vector<std::string> status(rows, "not run");
   std::atomic<std::size_t> taken{0};
@@ -346,15 +346,8 @@ std::vector<std::string> Ensemble::run(std::span<const double> values, std::span
         figures[row * wide + i] = *figure;
     if (options.progress) ++*options.progress;
   };
-  const auto threads = std::min<std::size_t>(
-      static_cast<std::size_t>(host::threads_of(options.threads)), std::max<std::size_t>(1, rows));
-  const int lanes = lanes_of(rows, threads, options.lanes);
-  host::side_by_side(
-      threads,
-      [&](std::size_t) {
-        run_many({next, begin, done, lanes, options.device});
-      },
-      nullptr, static_cast<int>(threads));
+  run_on(device, rows, {.next = next, .begin = begin, .done = done, .lanes = options.lanes},
+         host::threads_of(options.threads));
   if (const std::exception_ptr wrong = misspelt()) std::rethrow_exception(wrong);
   return status;
 }

@@ -1,12 +1,15 @@
 // Runs of an ensemble equal single runs of the same values, to the bit, in every figure.
 #include "sinew/run/ensemble/ensemble.h"
 
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <random>
 
 #include "sinew/analysis/summary.h"
+#include "sinew/card/walk.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/ensemble/many.h"
@@ -144,6 +147,32 @@ TEST(Ensemble, IsTheSameForAnyNumberOfThreadsAndLanes) {
 }
 
 // A refused row has the words of a single run, and others are not disturbed.
+// Walks that a card holds, with plans of their own and equal ones, and others: a row that is
+// refused, one whose plan measures, and one that ends early.
+TEST(Ensemble, ACardHasTheBitsOfTheProcessor) {
+  ASSERT_TRUE(dlopen((test::build_dir() + "/tests/graphics_card/libcuda.so.1").c_str(), RTLD_NOW))
+      << dlerror();
+  Device device = chosen({.kind = Device::Kind::cpu});
+  if (!card::walk_ptx().empty()) device = chosen({.kind = Device::Kind::gpu});
+  const std::vector<std::string> all = {"trolley.distance_m",       "passiveness",
+                                        "valves.switchings",        "joints.hip.tracking_rms_rad",
+                                        "foot.step_repeat_rms_m",   "air_used_kg",
+                                        "rollers.front.min_load_N", "no.such_figure_at_all"};
+  const std::vector<std::string> keys = {"seed", "trolley.drag", "phase.swing.duration",
+                                         "muscle.hip_flexor.count"};
+  const Ensemble walks(walk, {}, keys, all);
+  std::mt19937 random(11);
+  std::vector<double> values;
+  for (int i = 0; i < 12; ++i)
+    values.insert(values.end(), {1.0 + i, std::uniform_real_distribution(3.0, 5.0)(random),
+                                 i % 3 == 0 ? 1.2 + 0.02 * i : 1.5, i == 5 ? -1.0 : 2.0});
+  std::vector<double> on_card(12 * all.size()), here(on_card.size());
+  const auto status = walks.run(values, on_card, {.threads = 2, .device = device});
+  EXPECT_EQ(status, walks.run(values, here, {.threads = 2, .device = {Device::Kind::cpu}}));
+  EXPECT_EQ(std::memcmp(on_card.data(), here.data(), here.size() * sizeof(double)), 0);
+  EXPECT_NE(status[5], "ok");
+}
+
 TEST(Ensemble, ARefusedRowSaysWhy) {
   const Ensemble ensemble(leg, {}, {"link.femur.mass"}, {"air_used_kg"});
   const std::vector<double> values = {0.3, -1, std::nan(""), 1e9, 0.3};

@@ -81,7 +81,6 @@ void run_many(const Many& many) {
                 return ended.run.ensemble->result(std::move(ended.run.member), outcome);
               }));
   };
-  // Every run is made in lanes of the processor, whatever many.device is.
   run_in_lanes({.next = next, .done = done, .most = many.lanes, .topics = topics});
 }
 
@@ -120,7 +119,13 @@ std::vector<BatchMember> begin_batch(const Many& many, std::size_t most, int thr
   return batch;
 }
 
-// Runs what a batch could not hold, in lanes on threads.
+// Runs all in lanes on threads.
+void run_in_threads(const Many& many, std::size_t threads) {
+  host::side_by_side(
+      threads, [&](std::size_t) { run_many(many); }, nullptr, static_cast<int>(threads));
+}
+
+// Runs what a batch could not hold.
 void run_rest(const Many& many, std::vector<BatchMember> rest, int threads) {
   std::atomic<std::size_t> taken{0};
   const auto next = [&]() -> std::optional<std::size_t> {
@@ -131,17 +136,13 @@ void run_rest(const Many& many, std::vector<BatchMember> rest, int threads) {
   const auto done = [&](std::size_t i, RunResult result) {
     many.done(rest[i].number, std::move(result));
   };
-  const auto count = std::min(static_cast<std::size_t>(threads), rest.size());
-  const int lanes = rest.empty() ? 1 : lanes_of(rest.size(), count, many.lanes);
-  host::side_by_side(
-      count,
-      [&](std::size_t) { run_many({.next = next, .begin = begin, .done = done, .lanes = lanes}); },
-      nullptr, threads);
+  run_on({.kind = Device::Kind::cpu}, rest.size(),
+         {.next = next, .begin = begin, .done = done, .lanes = many.lanes}, threads);
 }
 
 }  // namespace
 
-void run_many_in_batches(const Many& many, const Launcher& launch, std::size_t most, int threads) {
+void run_many_in_batches(const Many& many, const InBatches& how, int threads) {
   // The first run finds the channels that the others record.
   if (const std::optional<std::size_t> number = many.next()) {
     BatchMember first{*number, {}};
@@ -149,15 +150,21 @@ void run_many_in_batches(const Many& many, const Launcher& launch, std::size_t m
     if (first.run.member)
       many.done(*number, refusing([&] { return run_alone(std::move(first.run)); }));
   }
-  for (;;) {
-    std::vector<BatchMember> batch = begin_batch(many, most, threads), rest;
+  for (bool failed = false; !failed;) {
+    std::vector<BatchMember> batch = begin_batch(many, how.most, threads), rest;
     if (batch.empty()) return;
     // A run without known channels would record all of them.
     std::vector<BatchedRun> runs;
     for (const BatchMember& its : batch)
       runs.push_back({topics_of(its.run) ? &its.run.member->experiment : nullptr,
                       topics_of(its.run), its.run.ensemble->plan_of(*its.run.member)});
-    const std::vector<std::optional<Outcome>> outcomes = run_batch(runs, launch, threads);
+    std::vector<std::optional<Outcome>> outcomes(batch.size());
+    try {
+      outcomes = run_batch(runs, how.launcher, threads);
+    } catch (const std::runtime_error&) {
+      if (!how.continues) throw;
+      failed = true;
+    }
     host::side_by_side(
         batch.size(),
         [&](std::size_t i) {
@@ -172,6 +179,25 @@ void run_many_in_batches(const Many& many, const Launcher& launch, std::size_t m
       if (!outcomes[i]) rest.push_back(std::move(batch[i]));
     run_rest(many, std::move(rest), threads);
   }
+  run_in_threads(many, static_cast<std::size_t>(threads));
+}
+
+void run_on(const Device& device, std::size_t runs, const Many& many, int threads) {
+  const bool asked = device.kind == Device::Kind::gpu;
+  if (!device.card || (!asked && runs < fewest_on_card)) {
+    const std::size_t count =
+        std::min(static_cast<std::size_t>(threads), std::max<std::size_t>(1, runs));
+    Many its = many;
+    its.lanes = lanes_of(runs, count, many.lanes);
+    return run_in_threads(its, count);
+  }
+  Card& card = *device.card;
+  run_many_in_batches(
+      many,
+      {{[&](const Batched& batched) { card.launch(batched); }, [&] { return card.memory(); }},
+       card.runs(),
+       !asked},
+      threads);
 }
 
 int lanes_of(std::size_t runs, std::size_t threads, int most) {

@@ -31,17 +31,30 @@ struct Many {
   std::function<BegunRun(std::size_t)> begin;
   // Receives the results, in any order. Must not throw.
   std::function<void(std::size_t, RunResult)> done;
-  int lanes = 8;       // largest number; 1: one after the other
-  Device device = {};  // the processor or a card; require_card() has been called
+  int lanes = 8;  // largest number; 1: one after the other
 };
 // Runs all in this thread (run/simulation/lanes.h). Each result has the wanted figures of the
 // same single run.
 void run_many(const Many& many);
 
+// Runs all, `runs` in number, on this chosen device (device.h), and on threads of the processor
+// what a card does not hold; fewer than fewest_on_card only on a card that was asked for. The
+// results are those of run_many(). Throws std::runtime_error if a card that was asked for fails; in
+// place of an automatic one the processor continues.
+void run_on(const Device& device, std::size_t runs, const Many& many, int threads);
+
+// Runs on an automatic card are at least this many: fewer are faster on the processor.
+inline constexpr std::size_t fewest_on_card = 100;
+
 // Runs all in batches of at most `most` runs (run/card/batch.h), which `launch` computes; those
-// that a batch cannot hold are run in lanes on threads. The results are those of run_many(). Throws
-// std::runtime_error if a launch fails.
-void run_many_in_batches(const Many& many, const Launcher& launch, std::size_t most, int threads);
+// that a batch cannot hold are run in lanes on threads. If a launch fails, throws
+// std::runtime_error, or if it `continues` runs the others on the processor.
+struct InBatches {
+  Launcher launcher;
+  std::size_t most = 1;
+  bool continues = false;
+};
+void run_many_in_batches(const Many& many, const InBatches& how, int threads);
 
 // Returns the lanes of each thread, at most `most`, so that all threads have runs.
 int lanes_of(std::size_t runs, std::size_t threads, int most);

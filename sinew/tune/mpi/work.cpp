@@ -237,7 +237,7 @@ Master::~Master() {
 
 void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads,
           const run::Device& device) {
-  run::require_card(device);
+  const run::Device its = run::chosen(device);
   std::unique_ptr<Runner> runner;
   for (;;) {
     const auto message = ranks.receive(60);
@@ -251,7 +251,7 @@ void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads,
     std::vector<std::size_t> points;
     for (const Json& point : json.at("points").list()) points.push_back(point.natural());
     const auto done = [&](const Row& row) { ranks.send(0, packed({{"row", json_of(row)}})); };
-    runner->run(points, threads, done, device);
+    runner->run(points, threads, done, its);
   }
   ranks.send(0, packed({{"end", true}}));
 }

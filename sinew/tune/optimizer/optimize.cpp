@@ -46,10 +46,11 @@ class Reporter {
 
 Tuned optimize_and_store(const Tuning& tuning, const std::filesystem::path& file,
                          const StoredTuningOptions& options) {
-  run::require_card(options.tune.runs.device);
+  const run::Device device = run::chosen(options.tune.runs.device);
   Results results(file, request_of(tuning));
   results.expect(points(tuning.runs));
   TuneOptions own = options.tune;
+  own.runs.device = device;
   own.runs.known = results.rows();
   if (!own.runs.known.empty())
     options.notices.note(fmt::format("{}: {} of {} runs are there", file.string(),

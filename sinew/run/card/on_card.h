@@ -1,0 +1,38 @@
+// run/card/on_card.h - batches of runs on a graphics card.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "sinew/card/driver.h"
+#include "sinew/run/card/batch.h"
+
+namespace sinew::run {
+
+// A card that is opened by its first launch, and stays open. Threads may use it at the same time.
+class Card {
+ public:
+  // Takes one of card::list().
+  explicit Card(card::Properties properties) : properties_(std::move(properties)) {}
+
+  const card::Properties& properties() const { return properties_; }
+  // Returns the number of runs that keep the card busy.
+  std::size_t runs() const;
+  // Returns the largest memory of a launch [byte].
+  std::size_t memory();
+
+  // Runs a batch. Throws std::runtime_error if the card cannot.
+  void launch(const Batched& batched);
+
+ private:
+  card::Program& program();
+
+  card::Properties properties_;
+  std::mutex mutex_;
+  std::optional<card::Program> program_;
+};
+
+}  // namespace sinew::run
