@@ -35,7 +35,7 @@ constexpr std::string_view quoted_settings = " length ";
 // Settings that can be the subject of a problem: at the begin of a line, or behind a file's name.
 // A name with a line number is a key of that file.
 constexpr std::string_view subjects =
-    " candidate device freeze known model names offsets part points prior range report rigs "
+    " candidate freeze known model names offsets part points prior range report rigs "
     "sensors "
     "shard tie units values vary where ";
 

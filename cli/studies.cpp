@@ -49,9 +49,13 @@ struct SweepRuns {
   tune::TableFile* csv = nullptr;  // takes the rows, as they come where no other file keeps them
 };
 
-// Returns the device of this many runs, and prints which card it is.
-run::Device device_of(const RunsOptions& options, std::size_t runs, const Messages& messages) {
-  run::Device device = run::chosen(run::parse_device(options.device));
+// Returns the device of this many runs, and prints which card it is. Where other processes run
+// them, each of these chooses its own.
+run::Device device_of(const RunsOptions& options, std::size_t runs, const tune::Master* master,
+                      const Messages& messages) {
+  const run::Device given = run::parse_device(options.device);
+  if (master != nullptr && !master->is_alone()) return given;
+  run::Device device = run::chosen(given);
   if (device.card && (device.kind == run::Device::Kind::gpu || runs >= run::fewest_on_card))
     messages.note("runs on " + run::name_of(device) +
                   ", and on the processor what it does not hold");
@@ -74,8 +78,9 @@ bool is_worker_of(const tune::Ranks& ranks, const RunsOptions& options,
 // config::Error where a figure has no row; both name what holds the rows.
 std::vector<tune::Row> run_rows(const tune::Sweep& s, const SweepRuns& how) {
   const std::string& file = how.options.results;
-  tune::Options options{.threads = host::threads_of(how.options.threads),
-                        .device = device_of(how.options, tune::points(s), how.messages)};
+  tune::Options options{
+      .threads = host::threads_of(how.options.threads),
+      .device = device_of(how.options, tune::points(s), how.master, how.messages)};
   if (!how.options.shard.empty()) options.share = tune::parse_share(how.options.shard);
   std::optional<tune::Results> results;
   tune::open_results(s, file, options, results, how.messages.notices());
@@ -115,12 +120,24 @@ void add_words(CLI::App& sub, const char* name, std::vector<std::string>& words,
   sub.add_option(name, words, description)->allow_extra_args(false);
 }
 
+// Returns what is wrong with the name of a device, "" for nothing.
+std::string mistake_of_device(const std::string& text) {
+  try {
+    run::parse_device(text);
+  } catch (const config::Error& e) {
+    const config::Problem& p = e.problems().front();
+    return units::to_text({p.found, p.expected, p.try_this});
+  }
+  return "";
+}
+
 // --threads, --device and --results.
 void add_keeping(CLI::App& sub, RunsOptions& options) {
   sub.add_option("--threads", options.threads, "runs at a time; default: one per processor")
       ->transform(between(1, 1024));
   sub.add_option("--device", options.device,
                  "auto, cpu, gpu or gpu:N: cores or a graphics card; the table is the same")
+      ->transform(passes(mistake_of_device))
       ->capture_default_str();
   sub.add_option("--results", options.results,
                  "FILE: study file that stores each finished row; stored rows are not run again");
@@ -214,7 +231,8 @@ tune::Tuned run_tuning(const tune::Tuning& tuning, const TuneOptions& options, t
   Interrupt interrupt;
   tune::StoredTuningOptions kept{
       .tune = {.runs = {.threads = host::threads_of(options.runs.threads),
-                        .device = device_of(options.runs, tuning.method.population, messages)}},
+                        .device =
+                            device_of(options.runs, tuning.method.population, &master, messages)}},
       .ask_to_stop = [&] { interrupt.request(); },
       .notices = messages.notices()};
   kept.tune.runs.stop = &interrupt.requested();

@@ -329,7 +329,7 @@ std::size_t points(const Sweep& s) {
 std::vector<Row> sweep(const Sweep& s, const Options& options) {
   if (!options.checked) check(s);
   Options its = options;
-  its.device = run::chosen(options.device);
+  if (!options.dispatch) its.device = run::chosen(options.device);
   Work work(s, its);
   if (!options.checked) work.first();
   work.others();

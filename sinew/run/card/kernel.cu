@@ -20,7 +20,8 @@
 #pragma clang force_cuda_host_device end
 
 // A thread runs a walk; all of a block meet at each node.
-extern "C" __global__ void walk(sinew::run::Walk* walks, sinew::run::Launch launch) {
+extern "C" __global__ void __attribute__((launch_bounds(sinew::run::kernel_threads, sinew::run::kernel_blocks)))
+walk(sinew::run::Walk* walks, sinew::run::Launch launch) {
   const std::int64_t i =
       static_cast<std::int64_t>(__nvvm_read_ptx_sreg_ctaid_x()) * __nvvm_read_ptx_sreg_ntid_x() +
       __nvvm_read_ptx_sreg_tid_x();

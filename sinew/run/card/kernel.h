@@ -9,6 +9,8 @@ namespace sinew::run {
 
 // Threads of a block. All of them meet at each node, so that they execute the same instructions.
 inline constexpr unsigned kernel_threads = 128;
+// Blocks that a multiprocessor computes at the same time: more would have too few registers.
+inline constexpr unsigned kernel_blocks = 4;
 
 // Runs walks[i] with meet(x) among the threads of a block; surplus threads only meet the others.
 template <class Meet>

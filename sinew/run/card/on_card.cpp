@@ -34,7 +34,8 @@ class Copied {
 }  // namespace
 
 std::size_t Card::runs() const {
-  return static_cast<std::size_t>(std::max(1, properties_.multiprocessors)) * kernel_threads;
+  return static_cast<std::size_t>(std::max(1, properties_.multiprocessors)) * kernel_threads *
+         kernel_blocks;
 }
 
 card::Program& Card::program() {

@@ -165,7 +165,8 @@ class HandOut {
 
 // Returns a worker's first reply.
 Json begin(const std::function<Sweep()>& sweep, const std::vector<double>& shares,
-           std::unique_ptr<Runner>& runner) try {
+           run::Device& device, std::unique_ptr<Runner>& runner) try {
+  device = run::chosen(device);
   Sweep s = sweep();
   if (s.sample && s.sample->given_later) {
     s.sample->points = shares.size() / s.sample->ranges.size();
@@ -236,8 +237,7 @@ Master::~Master() {
 }
 
 void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads,
-          const run::Device& device) {
-  const run::Device its = run::chosen(device);
+          run::Device device) {
   std::unique_ptr<Runner> runner;
   for (;;) {
     const auto message = ranks.receive(60);
@@ -245,13 +245,13 @@ void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads,
     const Json json = unpacked(message->text);
     if (json.contains("end")) break;
     if (!json.contains("points")) {
-      ranks.send(0, packed(begin(sweep, json.at("shares").numbers(), runner)));
+      ranks.send(0, packed(begin(sweep, json.at("shares").numbers(), device, runner)));
       continue;
     }
     std::vector<std::size_t> points;
     for (const Json& point : json.at("points").list()) points.push_back(point.natural());
     const auto done = [&](const Row& row) { ranks.send(0, packed({{"row", json_of(row)}})); };
-    runner->run(points, threads, done, its);
+    runner->run(points, threads, done, device);
   }
   ranks.send(0, packed({{"end", true}}));
 }

@@ -69,6 +69,9 @@ class Master {
   // `ranks` must outlive it.
   explicit Master(const Ranks& ranks) : ranks_(ranks) {}
 
+  // Returns whether no other process was started.
+  bool is_alone() const { return ranks_.size() == 1; }
+
   // Releases the workers.
   ~Master();
   Master(const Master&) = delete;
@@ -88,8 +91,8 @@ class Master {
 };
 
 // Runs points until the master releases this worker. `sweep` is called when there are points to
-// run. Throws std::runtime_error for a card that cannot be used.
+// run. A card that cannot be used is the master's error.
 void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads,
-          const run::Device& device = {});
+          run::Device device = {});
 
 }  // namespace sinew::tune

@@ -46,11 +46,9 @@ class Reporter {
 
 Tuned optimize_and_store(const Tuning& tuning, const std::filesystem::path& file,
                          const StoredTuningOptions& options) {
-  const run::Device device = run::chosen(options.tune.runs.device);
   Results results(file, request_of(tuning));
   results.expect(points(tuning.runs));
   TuneOptions own = options.tune;
-  own.runs.device = device;
   own.runs.known = results.rows();
   if (!own.runs.known.empty())
     options.notices.note(fmt::format("{}: {} of {} runs are there", file.string(),
@@ -235,7 +233,10 @@ std::vector<Row> known_of(const std::vector<Row>& known, std::size_t first, std:
 class Loop {
  public:
   Loop(const Tuning& tuning, const TuneOptions& options)
-      : tuning_(tuning), options_(options), method_(tuning.method) {}
+      : tuning_(tuning),
+        options_(options),
+        device_(options.dispatch ? options.runs.device : run::chosen(options.runs.device)),
+        method_(tuning.method) {}
 
   Tuned run() {
     for (std::size_t g = 0; g < tuning_.generations && !out_.stopped; ++g) {
@@ -279,6 +280,7 @@ class Loop {
     Options own = options_.runs;
     own.progress = nullptr;
     own.checked = !first;
+    own.device = device_;
     if (!ensembles_) ensembles_ = ensembles_of(runs);
     own.runs = ensembles_;
     own.known = known_of(options_.runs.known, from, points(runs));
@@ -306,6 +308,7 @@ class Loop {
 
   const Tuning& tuning_;
   const TuneOptions& options_;
+  const run::Device device_;                   // for all generations
   std::shared_ptr<run::Ensembles> ensembles_;  // shared by all generations
   OptimizerMethod method_;
   Tuned out_;
