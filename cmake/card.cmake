@@ -16,7 +16,8 @@ if(SINEW_CARD AND SINEW_CARD_COMPILER)
   add_custom_command(
     OUTPUT ${ptx}
     COMMAND ${SINEW_CARD_COMPILER}
-      -x cuda --cuda-device-only -nocudainc -nocudalib --cuda-path=/nonexistent -Wno-unknown-cuda-version
+      -x cuda --cuda-device-only -nocudainc -nocudalib --cuda-path=/nonexistent
+      -Wno-unknown-cuda-version -Wno-deprecated-declarations
       # Oldest driver and card: constants of sinew/card/driver.cpp.
       --cuda-feature=+ptx70 --cuda-gpu-arch=sm_80
       -Xclang -fcuda-allow-variadic-functions
