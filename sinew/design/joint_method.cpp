@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "sinew/actuator/body.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/design/joint.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "sinew/config/diagnostics.h"
+#include "sinew/config/setting.h"
 #include "sinew/gas/orifice.h"
 #include "sinew/signals/pulse.h"
 #include "sinew/units/constants.h"

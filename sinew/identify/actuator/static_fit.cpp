@@ -406,8 +406,9 @@ Refit refit_of(const StaticFit& fit, std::span<const StaticPoint> points,
     StaticScales scales;
     Problem problem{free_parameters, points, scales};
   };
-  const auto held = std::make_shared<const Held>(fit.free_parameters,
-                                                 std::vector(points.begin(), points.end()), scales);
+  // Clang 14 cannot make an aggregate by std::make_shared.
+  const std::shared_ptr<const Held> held(
+      new Held{fit.free_parameters, std::vector(points.begin(), points.end()), scales});
   FitProblem out{.count = held->problem.count(),
                  .parameters = fit.parameters,
                  .options = {.outlier = outlier * fit.scatter},

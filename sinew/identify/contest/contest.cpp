@@ -138,7 +138,7 @@ Fit fit_of(const Candidate& candidate, const Trial& trial, double full_scale) {
       if (trial.shows_left_out) out.residuals.insert(out.residuals.end(), left.begin(), left.end());
     }
     if (!candidate.may_be_at_bounds) keep_off_bounds(out, candidate.may_be_at_bound);
-    out.refit = std::make_shared<Refit>(std::move(problem), std::move(found));
+    out.refit = std::make_shared<Refit>(Refit{std::move(problem), std::move(found)});
   } catch (const Refusal& refusal) {
     out.refused = refusal.what();
   }

@@ -90,7 +90,7 @@ Trial trial_of(std::span<const Point> points, std::size_t fitted) {
     if (i < fitted) fold.push_back(static_cast<int>(own[i].level % folds));
   }
   if (points.size() > fitted) {
-    Split& split = out.splits.emplace_back(out.rows);
+    Split& split = out.splits.emplace_back(Split{out.rows});
     for (std::size_t i = fitted; i < points.size(); ++i) split.held_out.push_back(i);
   } else if (level_count(own) > 2) {
     out.splits = each_part_held_out(fold);
