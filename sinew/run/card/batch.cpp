@@ -29,37 +29,40 @@ Recorder recorder_of(const BatchedRun& run, const Controllers& controllers, Tick
   return {*run.experiment, controllers, Recorder::Truths::given, last, run.topics};
 }
 
-// A run of a batch with its controllers, which show what the walk has computed.
+// Returns whether a walk ended as planned.
+bool ended_well(const Walk& walk) {
+  const control::Supervisor& supervisor = walk.board().supervisor;
+  return walk.complete() && walk.status() == signals::Status::ok && !walk.leg().failure() &&
+         supervisor.state().fault == signals::Status::ok &&
+         supervisor.supervised().trip.cause == control::Trip::Cause::none;
+}
+
+// A run of a batch.
 class Prepared {
  public:
   Prepared(const BatchedRun& run, const plant::Setup& setup)
-      : run_(run),
-        controllers_(*run.experiment, nullptr),
-        last_(experiment::last_tick(*run.experiment)) {
-    const Recorder recorder = recorder_of(run_, controllers_, last_);
+      : run_(run), last_(experiment::last_tick(*run.experiment)) {
+    const Controllers controllers(*run.experiment, nullptr);
+    const Recorder recorder = recorder_of(run_, controllers, last_);
     period_ = recorder.period();
-    records_edges_ = recorder.records_edges();
+    samples_ = static_cast<std::int32_t>(last_ / period_ + 2);
+    if (recorder.records_edges())
+      edges_ = static_cast<std::int32_t>(8 * controllers.most_edges(last_));
+    plan_rows_ = static_cast<std::size_t>(last_ / controllers.scan().period + 1);
     for (const Column& column : recorder.columns()) columns_ += column.topic.name + '\n';
     walk_.emplace(plant::FlatLeg(setup),
-                  SingleBoard{controllers_.boards().each().front(), controllers_.scan().period},
+                  SingleBoard{controllers.boards().each().front(), controllers.scan().period},
                   Walk::Timing{last_, recorder.next(0), period_});
   }
 
   const BatchedRun& run() const { return run_; }
-  const Controllers& controllers() const { return controllers_; }
   // Returns the names of its columns.
   const std::string& columns() const { return columns_; }
   Tick last() const { return last_; }
-  // Return room for its samples and edges.
-  std::int32_t samples() const { return static_cast<std::int32_t>(last_ / period_ + 2); }
-  std::int32_t edges() const {
-    return records_edges_ ? static_cast<std::int32_t>(8 * controllers_.most_edges(last_)) : 0;
-  }
-
-  // Returns the memory of its plan's table [byte].
-  std::size_t plan_size() const {
-    return static_cast<std::size_t>(last_ / controllers_.scan().period + 1) * PlanTable::row_size;
-  }
+  // Return room for its samples and edges, and the memory of its plan's table [byte].
+  std::int32_t samples() const { return samples_; }
+  std::int32_t edges() const { return edges_; }
+  std::size_t plan_size() const { return plan_rows_ * PlanTable::row_size; }
 
   // Returns its walk with the commands of this plan, which begin at this place among all.
   Walk take_walk(std::shared_ptr<const PlanTable> plan, std::int64_t first) {
@@ -71,33 +74,27 @@ class Prepared {
     return out;
   }
 
-  // Returns its outcome after the launch; nothing if it did not end as planned.
-  std::optional<Outcome> outcome(const Walk& ended, const Batched& batched, std::size_t number);
+  // Returns its outcome after the launch, in which it has ended well.
+  Outcome outcome(const Walk& ended, const Batched& batched, std::size_t number) const;
 
  private:
-  void show(const Shown& shown) {
-    controllers_.boards().show(shown.controller, shown.supervised,
-                               {0, std::numeric_limits<Tick>::max()});
-  }
-
   BatchedRun run_;
-  Controllers controllers_;
   Tick last_, period_ = 0;
-  bool records_edges_ = false;
+  std::int32_t samples_ = 0, edges_ = 0;
+  std::size_t plan_rows_ = 0;
   std::string columns_;
   std::optional<Walk> walk_;
   std::shared_ptr<const PlanTable> plan_;
 };
 
-std::optional<Outcome> Prepared::outcome(const Walk& ended, const Batched& batched,
-                                         std::size_t number) {
-  const control::Supervisor& supervisor = ended.board().supervisor;
-  if (!ended.complete() || ended.status() != signals::Status::ok || ended.leg().failure() ||
-      supervisor.state().fault != signals::Status::ok ||
-      supervisor.supervised().trip.cause != control::Trip::Cause::none)
-    return {};
-
-  Recorder recorder = recorder_of(run_, controllers_, last_);
+// The controllers show what the walk has computed to the recorder.
+Outcome Prepared::outcome(const Walk& ended, const Batched& batched, std::size_t number) const {
+  Controllers controllers(*run_.experiment, nullptr);
+  const auto show = [&](const Shown& shown) {
+    controllers.boards().show(shown.controller, shown.supervised,
+                              {0, std::numeric_limits<Tick>::max()});
+  };
+  Recorder recorder = recorder_of(run_, controllers, last_);
   const std::size_t runs = batched.walks.size(), words = batched.wanted.size();
   std::array<std::uint64_t, words_of<Shown>> sample{};
   plant::Truths truths;
@@ -115,9 +112,10 @@ std::optional<Outcome> Prepared::outcome(const Walk& ended, const Batched& batch
   for (std::int32_t k = 0; k < ended.edges(); ++k)
     recorder.edge(PackedEdge::unpack(batched.edge[static_cast<std::size_t>(k) * runs + number]));
 
+  const control::Supervisor& supervisor = ended.board().supervisor;
   show({{}, supervisor.state(), supervisor.supervised()});
   Outcome out{.status = ended.status()};
-  add_end(*run_.experiment, controllers_, &recorder, last_, out);
+  add_end(*run_.experiment, controllers, &recorder, last_, out);
   out.unreachable_periods = plan_->unreachable_periods();
   out.nodes = ended.leg().nodes();
   return out;
@@ -165,7 +163,8 @@ std::vector<control::Command> take_walks(std::span<Prepared* const> runs, int th
   host::side_by_side(
       firsts.size(),
       [&](std::size_t g) {
-        tables[g] = std::make_shared<const PlanTable>(firsts[g]->controllers(), firsts[g]->last());
+        const Experiment& e = *firsts[g]->run().experiment;
+        tables[g] = std::make_shared<const PlanTable>(e, Controllers(e, nullptr));
       },
       nullptr, threads);
   std::vector<control::Command> commands;
@@ -251,17 +250,24 @@ class Part {
   Part(const Part&) = delete;
   Part& operator=(const Part&) = delete;
 
-  // Returns the outcomes of its runs after a launch.
-  std::vector<std::optional<Outcome>> outcomes(const Launcher& launcher) {
+  // Runs them, and passes the outcomes of those that ended well to done(number, outcome) from
+  // threads, after one has been compared with run().
+  template <class Done>
+  void run(const Launcher& launcher, const Done& done) {
     launcher.launch(batched_);
-    std::vector<std::optional<Outcome>> out(runs_.size());
+    const auto finish = [&](std::size_t i) { return runs_[i]->outcome(walks_[i], batched_, i); };
+    const auto first =
+        static_cast<std::size_t>(std::ranges::find_if(walks_, ended_well) - walks_.begin());
+    if (first == walks_.size()) return;
+    Outcome compared = finish(first);
+    compare_with_alone(runs_[first]->run(), compared);
+    done(first, std::move(compared));
     host::side_by_side(
-        runs_.size(), [&](std::size_t i) { out[i] = runs_[i]->outcome(walks_[i], batched_, i); },
+        runs_.size(),
+        [&](std::size_t i) {
+          if (i != first && ended_well(walks_[i])) done(i, finish(i));
+        },
         nullptr, threads_);
-    const auto first = std::ranges::find_if(out, [](const auto& its) { return its.has_value(); });
-    if (first != out.end())
-      compare_with_alone(runs_[static_cast<std::size_t>(first - out.begin())]->run(), **first);
-    return out;
   }
 
  private:
@@ -291,8 +297,8 @@ std::size_t runs_in(std::size_t memory, std::span<Prepared* const> runs, std::si
 
 }  // namespace
 
-std::vector<std::optional<Outcome>> run_batch(std::span<const BatchedRun> runs,
-                                              const Launcher& launcher, int threads) {
+void run_batch(std::span<const BatchedRun> runs, const Launcher& launcher, int threads,
+               const std::function<void(std::size_t, Outcome)>& done) {
   std::vector<std::unique_ptr<Prepared>> all(runs.size());
   host::side_by_side(
       runs.size(), [&](std::size_t i) { all[i] = prepare(runs[i]); }, nullptr, threads);
@@ -303,21 +309,17 @@ std::vector<std::optional<Outcome>> run_batch(std::span<const BatchedRun> runs,
     held.push_back(all[i].get());
     place.push_back(i);
   }
-  std::vector<std::optional<Outcome>> out(runs.size());
-  if (held.empty()) return out;
+  if (held.empty()) return;
 
   const std::vector<std::uint16_t> wanted = wanted_words(held);
   for (std::size_t first = 0, count = 0; first < held.size(); first += count) {
     const std::span<Prepared* const> rest = std::span<Prepared* const>(held).subspan(first);
     count = runs_in(launcher.memory(), rest, wanted.size());
-    std::vector<std::optional<Outcome>> ended =
-        Part(rest.first(count), wanted, threads).outcomes(launcher);
-    for (std::size_t i = 0; i < count; ++i) {
-      out[place[first + i]] = std::move(ended[i]);
-      all[place[first + i]].reset();
-    }
+    Part(rest.first(count), wanted, threads).run(launcher, [&](std::size_t i, Outcome outcome) {
+      done(place[first + i], std::move(outcome));
+    });
+    for (std::size_t i = 0; i < count; ++i) all[place[first + i]].reset();
   }
-  return out;
 }
 
 }  // namespace sinew::run

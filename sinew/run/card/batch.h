@@ -49,11 +49,12 @@ struct BatchedRun {
 // board, with a plan that measures nothing.
 bool fits_batch(const experiment::Experiment& experiment);
 
-// Returns the outcome of each run, with the bits of run(). Nothing for a run that does not fit, or
-// that did not end as planned: it is to be run by itself. Prepares and finishes the runs on
-// threads. One run of each launch is also computed by run() and compared; throws std::runtime_error
-// if its bits differ, and what the launcher throws.
-std::vector<std::optional<Outcome>> run_batch(std::span<const BatchedRun> runs,
-                                              const Launcher& launcher, int threads);
+// Runs them and passes the outcome of each one, with the bits of run(), to done(number, outcome),
+// which threads call in any order. A run that does not fit, or that did not end as planned, has
+// none: it is to be run by itself. Prepares and finishes the runs on threads. One run of each
+// launch is also computed by run() and compared first; throws std::runtime_error if its bits
+// differ, and what the launcher throws.
+void run_batch(std::span<const BatchedRun> runs, const Launcher& launcher, int threads,
+               const std::function<void(std::size_t, Outcome)>& done);
 
 }  // namespace sinew::run

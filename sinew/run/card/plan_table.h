@@ -17,13 +17,17 @@ namespace sinew::run {
 // the ground's force.
 bool measures(const gait::Plan& plan);
 
+// Returns what the gait controller uses of a robot: numbers that act on its body, its air and its
+// readings alone are 0. Robots that are equal then have equal plan tables.
+robot::Robot as_controlled(robot::Robot robot);
+
 class PlanTable {
  public:
   static constexpr std::size_t row_size = sizeof(control::Command) + sizeof(gait::Desired);
 
-  // Takes the controllers of an experiment at their start, whose plan must not measure, and the
-  // ticks of its run. The robot must have one leg and one board.
-  PlanTable(const Controllers& controllers, signals::Tick last);
+  // Takes an experiment, whose plan must not measure, with its controllers at their start. The
+  // robot must have one leg and one board.
+  PlanTable(const experiment::Experiment& experiment, const Controllers& controllers);
 
   // Returns the commands of the board in each period of the low level.
   const std::vector<control::Command>& commands() const { return commands_; }

@@ -15,6 +15,7 @@
 #include "sinew/analysis/verdict/reported.h"
 #include "sinew/experiment/check.h"
 #include "sinew/host/side_by_side.h"
+#include "sinew/run/card/plan_table.h"
 #include "sinew/run/ensemble/many.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/units/quantity.h"
@@ -236,17 +237,19 @@ std::unique_ptr<Ensemble::Member> Ensemble::member(std::span<const double> value
   return member(values, texts);
 }
 
-// Finds the parameters that change the robot or the plan: each is changed by itself.
+// Finds the parameters that change what the gait controller uses: each is changed by itself.
 void Ensemble::find_plan_parameters() const {
+  experiment::Experiment start = start_.experiment;
+  start.robot = as_controlled(start.robot);
   std::vector<bool> found;
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     std::vector<double> values = start_.numbers.values();
     values[i] += units()[i].empty() ? 1.0 : 1e-3 * (1.0 + std::abs(values[i]));
-    experiment::Experiment changed = start_.experiment, of_plan = start_.experiment;
+    experiment::Experiment changed = start_.experiment, of_plan = start;
     const bool is_set = start_.numbers.set_unbounded(changed, values);
-    of_plan.robot = changed.robot;
-    of_plan.plan = changed.plan;
-    found.push_back(!is_set || !experiment::same_values(of_plan, start_.experiment));
+    of_plan.robot = as_controlled(std::move(changed.robot));
+    of_plan.plan = std::move(changed.plan);
+    found.push_back(!is_set || !experiment::same_values(of_plan, start));
   }
   of_plan_ = std::move(found);
 }

@@ -150,7 +150,7 @@ class Ensemble {
   mutable bool reads_ = false;           // they differed: the file is read for every run
   mutable std::exception_ptr misspelt_;  // refusal of a figure
   mutable std::shared_ptr<const analysis::Selection> selection_;
-  mutable std::vector<bool> of_plan_;  // parameters of the robot or the plan; empty: not yet found
+  mutable std::vector<bool> of_plan_;  // parameters that the gait controller uses; empty: not found
   mutable std::vector<std::unique_ptr<Member>> spare_;
 };
 

@@ -158,25 +158,19 @@ void run_many_in_batches(const Many& many, const InBatches& how, int threads) {
     for (const BatchMember& its : batch)
       runs.push_back({topics_of(its.run) ? &its.run.member->experiment : nullptr,
                       topics_of(its.run), its.run.ensemble->plan_of(*its.run.member)});
-    std::vector<std::optional<Outcome>> outcomes(batch.size());
+    const auto done = [&](std::size_t i, const Outcome& outcome) {
+      BegunRun& its = batch[i].run;
+      many.done(batch[i].number,
+                refusing([&] { return its.ensemble->result(std::move(its.member), outcome); }));
+    };
     try {
-      outcomes = run_batch(runs, how.launcher, threads);
+      run_batch(runs, how.launcher, threads, done);
     } catch (const std::runtime_error&) {
       if (!how.continues) throw;
       failed = true;
     }
-    host::side_by_side(
-        batch.size(),
-        [&](std::size_t i) {
-          if (!outcomes[i]) return;
-          BegunRun& its = batch[i].run;
-          many.done(batch[i].number, refusing([&] {
-                      return its.ensemble->result(std::move(its.member), *outcomes[i]);
-                    }));
-        },
-        nullptr, threads);
-    for (std::size_t i = 0; i < batch.size(); ++i)
-      if (!outcomes[i]) rest.push_back(std::move(batch[i]));
+    for (BatchMember& its : batch)
+      if (its.run.member) rest.push_back(std::move(its));
     run_rest(many, std::move(rest), threads);
   }
   run_in_threads(many, static_cast<std::size_t>(threads));
