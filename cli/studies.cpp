@@ -56,9 +56,10 @@ run::Device device_of(const RunsOptions& options, std::size_t runs, const tune::
   const run::Device given = run::parse_device(options.device);
   if (master != nullptr && !master->is_alone()) return given;
   run::Device device = run::chosen(given);
-  if (device.card && (device.kind == run::Device::Kind::gpu || runs >= run::fewest_on_card))
+  const bool is_named = device.kind == run::Device::Kind::gpu;
+  if (device.card && runs > 0 && (is_named || runs >= run::fewest_on_card))
     messages.note("runs on " + run::name_of(device) +
-                  ", and on the processor what it does not hold");
+                  "; runs that do not suit it use the processor");
   return device;
 }
 
@@ -80,7 +81,8 @@ std::vector<tune::Row> run_rows(const tune::Sweep& s, const SweepRuns& how) {
   const std::string& file = how.options.results;
   tune::Options options{
       .threads = host::threads_of(how.options.threads),
-      .device = device_of(how.options, tune::points(s), how.master, how.messages)};
+      .device = device_of(how.options, s.largest ? 0 : tune::points(s), how.master, how.messages),
+      .notice = [&](const std::string& text) { how.messages.note(text); }};
   if (!how.options.shard.empty()) options.share = tune::parse_share(how.options.shard);
   std::optional<tune::Results> results;
   tune::open_results(s, file, options, results, how.messages.notices());

@@ -8,7 +8,7 @@
 
 set(walk_text ${PROJECT_BINARY_DIR}/walk_ptx.cpp)
 if(SINEW_CARD)
-  find_program(SINEW_CARD_COMPILER NAMES clang++-19 clang++-18 clang++-17)
+  find_program(SINEW_CARD_COMPILER NAMES clang++-19)
 endif()
 if(SINEW_CARD AND SINEW_CARD_COMPILER)
   set(kernel ${PROJECT_SOURCE_DIR}/sinew/run/card/kernel.cu)

@@ -72,18 +72,12 @@ class PlainAir {
   };
 
   // All networks must be plain (AirNetwork::stays_plain) and have the same number of muscles.
-  // Several must outlive this object; a single one may not have_sealed_bounds().
+  // Several must outlive this object; a single one may not have such
+  // muscles.
   explicit PlainAir(const std::array<const Network*, W>& each);
 
   // Returns the number of muscles of each machine.
   int muscles() const noexcept { return size_; }
-
-  // Returns whether the friction of a muscle is bounded by its sealed stiffness.
-  static bool has_sealed_bounds(const Network& network) {
-    for (int i = 0; i < network.muscles(); ++i)
-      if (network.braids().bound_by_sealed(i)) return true;
-    return false;
-  }
 
   // State of one muscle of one machine shortly after its node, and the masses that have passed its
   // valves since the start.

@@ -207,7 +207,13 @@ void run_points(const Sweep& s, const Points& points, std::span<const std::size_
     hand_back(single(s, index, points.at(index), its, false));
   };
   run::run_on(how.device, numbers.size(),
-              {.next = next, .begin = begin, .done = result, .lanes = how.lanes}, how.threads);
+              {.next = next,
+               .begin = begin,
+               .done = result,
+               .lanes = how.lanes,
+               .stopped = [&] { return how.stop && how.stop->load(); },
+               .notice = how.notice},
+              how.threads);
 }
 
 // --- all points ---

@@ -110,10 +110,11 @@ struct Options {
   int threads = 1;
   int lanes = 8;            // runs in parallel per thread, at most; the rows are the same
   run::Device device = {};  // the processor or a card; the rows are the same
-  const std::atomic<bool>* stop = nullptr;        // true: no further runs are begun
-  std::atomic<std::int64_t>* progress = nullptr;  // completed points
-  std::function<void(const Row&)> row = {};       // called for each row of the table, in order
-  std::function<void(const Row&)> done = {};      // called for each completed run, at once
+  std::function<void(const std::string&)> notice = {};  // takes a sentence about a card
+  const std::atomic<bool>* stop = nullptr;              // true: no further runs are begun
+  std::atomic<std::int64_t>* progress = nullptr;        // completed points
+  std::function<void(const Row&)> row = {};   // called for each row of the table, in order
+  std::function<void(const Row&)> done = {};  // called for each completed run, at once
   // Replaces the threads here: runs these points, passes their rows to `done` in any order and one
   // at a time, and returns when all are complete or it was stopped.
   std::function<void(std::span<const std::size_t> points, const std::function<void(Row)>& done)>

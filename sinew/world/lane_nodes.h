@@ -109,7 +109,7 @@ void LaneNodes<N, W>::step(const Mask& steps, const S& h, State& s) const noexce
   for (std::size_t c = 0; c < held.size(); ++c)
     s.held[c] = units::select(steps, held[c], s.held[c]);
   const typename Body::Acceleration first = body().accelerate(s.first.acceleration, s.held);
-  if (units::all(steps)) {
+  if (W == 1 || units::all(steps)) {  // one lane is stepped only if it steps
     this->integrate_piece(0, h, s.now, s.valves, s.memory, s.first, first, s.held);
     return;
   }
@@ -123,7 +123,7 @@ void LaneNodes<N, W>::step(const Mask& steps, const S& h, State& s) const noexce
 
 template <int N, int W>
 bool LaneNodes<N, W>::prepare(const Mask& active, State& s, std::array<int, W>& failed) noexcept {
-  if (units::all(active)) {
+  if (W == 1 || units::all(active)) {
     this->evaluate_air(0, s.now, s.valves, s.memory, s.first);
   } else {
     Evaluation evaluation;

@@ -201,8 +201,10 @@ bool same_bits(const signals::Table& a, const signals::Table& b) {
 
 // Throws if a run of the launch has other bits than by itself: then none can be trusted.
 void compare_with_alone(const BatchedRun& of, const Outcome& launched) {
-  if (!same_bits(launched.table, run(*of.experiment, {.topics = of.topics}).table))
-    throw std::runtime_error(
+  const Outcome alone = run(*of.experiment, {.topics = of.topics});
+  if (!same_bits(launched.table, alone.table) || launched.nodes != alone.nodes ||
+      launched.duration != alone.duration)
+    throw WrongBits(
         "found other bits than the processor's in a run that was launched together with others; "
         "expected the same; use the processor instead (device cpu), and report it with the output "
         "of `sinew doctor`");
@@ -215,16 +217,6 @@ bool fits_batch(const Experiment& e) {
   if (experiment::last_tick(e) >= PackedEdge::latest) return false;
   const plant::Setup setup = planar_setup(e);
   return plant::FlatLeg::fits(setup) && boards_of(e).size() == 1;
-}
-
-void launch_on_processor(const Batched& batched) {
-  const Launch launch{
-      batched.commands.data(),
-      {batched.wanted.data(), static_cast<std::int32_t>(batched.wanted.size()), batched.samples,
-       batched.edges, static_cast<std::int64_t>(batched.walks.size()), batched.sample.data(),
-       batched.edge.data()}};
-  for (std::size_t i = 0; i < batched.walks.size(); ++i)
-    batched.walks[i].run(launch, static_cast<std::int64_t>(i), true, [](bool x) { return x; });
 }
 
 namespace {
@@ -265,7 +257,7 @@ class Part {
     host::side_by_side(
         runs_.size(),
         [&](std::size_t i) {
-          if (i != first && ended_well(walks_[i])) done(i, finish(i));
+          if (ended_well(walks_[i])) done(i, finish(i));
         },
         nullptr, threads_);
   }
@@ -280,16 +272,17 @@ class Part {
   std::vector<std::uint32_t> edge_;
 };
 
-// Returns the number of the first runs that fit in this memory [byte], at least 1.
+// Returns the number of the first runs that fit in this memory [byte], at least 1. Each has the
+// room that the largest of them needs.
 std::size_t runs_in(std::size_t memory, std::span<Prepared* const> runs, std::size_t words) {
   std::set<std::string> plans;
-  std::size_t used = 0, count = 0;
+  std::size_t of_plans = 0, largest = 0, count = 0;
   for (const Prepared* run : runs) {
     const auto samples = static_cast<std::size_t>(run->samples());
-    used += sizeof(Walk) + samples * words * sizeof(std::uint64_t) +
-            static_cast<std::size_t>(run->edges()) * sizeof(std::uint32_t);
-    if (plans.insert(run->run().plan).second) used += run->plan_size();
-    if (used > memory) break;
+    largest = std::max(largest, sizeof(Walk) + samples * words * sizeof(std::uint64_t) +
+                                    static_cast<std::size_t>(run->edges()) * sizeof(std::uint32_t));
+    if (plans.insert(run->run().plan).second) of_plans += run->plan_size();
+    if (of_plans + (count + 1) * largest > memory) break;
     ++count;
   }
   return std::max<std::size_t>(1, count);
@@ -298,6 +291,7 @@ std::size_t runs_in(std::size_t memory, std::span<Prepared* const> runs, std::si
 }  // namespace
 
 void run_batch(std::span<const BatchedRun> runs, const Launcher& launcher, int threads,
+               const std::function<bool()>& stopped,
                const std::function<void(std::size_t, Outcome)>& done) {
   std::vector<std::unique_ptr<Prepared>> all(runs.size());
   host::side_by_side(
@@ -312,7 +306,7 @@ void run_batch(std::span<const BatchedRun> runs, const Launcher& launcher, int t
   if (held.empty()) return;
 
   const std::vector<std::uint16_t> wanted = wanted_words(held);
-  for (std::size_t first = 0, count = 0; first < held.size(); first += count) {
+  for (std::size_t first = 0, count = 0; first < held.size() && !stopped(); first += count) {
     const std::span<Prepared* const> rest = std::span<Prepared* const>(held).subspan(first);
     count = runs_in(launcher.memory(), rest, wanted.size());
     Part(rest.first(count), wanted, threads).run(launcher, [&](std::size_t i, Outcome outcome) {

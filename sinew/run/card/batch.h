@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,10 @@ struct Launcher {
   std::function<std::size_t()> memory = [] { return std::size_t{1} << 30; };
 };
 
-// Runs them on the processor, one after the other.
-void launch_on_processor(const Batched& batched);
+// The error of a launcher that computes other bits than the processor.
+struct WrongBits : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 // An experiment of a batch. It must exist until the batch is done.
 struct BatchedRun {
@@ -51,10 +54,11 @@ bool fits_batch(const experiment::Experiment& experiment);
 
 // Runs them and passes the outcome of each one, with the bits of run(), to done(number, outcome),
 // which threads call in any order. A run that does not fit, or that did not end as planned, has
-// none: it is to be run by itself. Prepares and finishes the runs on threads. One run of each
-// launch is also computed by run() and compared first; throws std::runtime_error if its bits
-// differ, and what the launcher throws.
+// none: it is to be run by itself. Prepares and finishes the runs on threads. Two runs of each
+// launch are also computed by run() and compared first; throws WrongBits if they differ, and what
+// the launcher throws. Begins no further launch once stopped() returns true.
 void run_batch(std::span<const BatchedRun> runs, const Launcher& launcher, int threads,
+               const std::function<bool()>& stopped,
                const std::function<void(std::size_t, Outcome)>& done);
 
 }  // namespace sinew::run

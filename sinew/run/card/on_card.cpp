@@ -10,12 +10,14 @@
 namespace sinew::run {
 namespace {
 
-// Memory on the card with a copy of these values.
+// Memory on the card for as many values.
 template <class T>
-class Copied {
+class OnCard {
  public:
-  Copied(const card::Program& program, std::span<const T> values)
-      : buffer_(program, std::max<std::size_t>(values.size_bytes(), sizeof(T))) {
+  OnCard(const card::Program& program, std::size_t count)
+      : buffer_(program, std::max<std::size_t>(count, 1) * sizeof(T)) {}
+  // Copies the values to the card.
+  OnCard(const card::Program& program, std::span<const T> values) : OnCard(program, values.size()) {
     buffer_.write(std::as_bytes(values));
   }
 
@@ -30,6 +32,28 @@ class Copied {
  private:
   card::Buffer buffer_;
 };
+
+// Runs a batch with the program of a card.
+void launch_with(card::Program& program, const Batched& batched) {
+  OnCard<Walk> walks(program, batched.walks);
+  OnCard<control::Command> commands(program, batched.commands);
+  OnCard<std::uint16_t> wanted(program, batched.wanted);
+  OnCard<std::uint64_t> sample(program, batched.sample.size());
+  OnCard<std::uint32_t> edge(program, batched.edge.size());
+
+  Launch launch{commands.address(),
+                {wanted.address(), static_cast<std::int32_t>(batched.wanted.size()),
+                 batched.samples, batched.edges, static_cast<std::int64_t>(batched.walks.size()),
+                 sample.address(), edge.address()}};
+  Walk* first = walks.address();
+  std::array<void*, 2> parameters = {&first, &launch};
+  const std::size_t blocks = (batched.walks.size() + kernel_threads - 1) / kernel_threads;
+  program.launch(static_cast<unsigned>(blocks), kernel_threads, parameters);
+  program.wait();
+  walks.read(batched.walks);
+  sample.read(batched.sample);
+  edge.read(batched.edge);
+}
 
 }  // namespace
 
@@ -53,25 +77,13 @@ std::size_t Card::memory() {
 
 void Card::launch(const Batched& batched) {
   const std::lock_guard lock(mutex_);
-  card::Program& on = program();
-  Copied<Walk> walks(on, batched.walks);
-  Copied<control::Command> commands(on, batched.commands);
-  Copied<std::uint16_t> wanted(on, batched.wanted);
-  Copied<std::uint64_t> sample(on, batched.sample);
-  Copied<std::uint32_t> edge(on, batched.edge);
-
-  Launch launch{commands.address(),
-                {wanted.address(), static_cast<std::int32_t>(batched.wanted.size()),
-                 batched.samples, batched.edges, static_cast<std::int64_t>(batched.walks.size()),
-                 sample.address(), edge.address()}};
-  Walk* first = walks.address();
-  std::array<void*, 2> parameters = {&first, &launch};
-  const std::size_t blocks = (batched.walks.size() + kernel_threads - 1) / kernel_threads;
-  on.launch(static_cast<unsigned>(blocks), kernel_threads, parameters);
-  on.wait();
-  walks.read(batched.walks);
-  sample.read(batched.sample);
-  edge.read(batched.edge);
+  try {
+    launch_with(program(), batched);
+  } catch (...) {
+    program_.reset();  // a failed launch ends its context
+    has_failed_ = true;
+    throw;
+  }
 }
 
 }  // namespace sinew::run

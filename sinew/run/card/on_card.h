@@ -1,6 +1,7 @@
 // run/card/on_card.h - batches of runs on a graphics card.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -24,8 +25,9 @@ class Card {
   // Returns the largest memory of a launch [byte].
   std::size_t memory();
 
-  // Runs a batch. Throws std::runtime_error if the card cannot.
+  // Runs a batch. Throws std::runtime_error if the card cannot; has_failed() then stays true.
   void launch(const Batched& batched);
+  bool has_failed() const { return has_failed_; }
 
  private:
   card::Program& program();
@@ -33,6 +35,7 @@ class Card {
   card::Properties properties_;
   std::mutex mutex_;
   std::optional<card::Program> program_;
+  std::atomic<bool> has_failed_ = false;
 };
 
 }  // namespace sinew::run

@@ -199,7 +199,8 @@ struct Walk::Watch {
       walk.complete_ = false;
       return;
     }
-    write(t, kept.sample + walk.samples_++ * kept.words * kept.runs + number);
+    const std::int64_t row = walk.samples_++;
+    write(t, kept.sample + row * kept.words * kept.runs + number);
   }
   signals::Tick next(signals::Tick) const noexcept {
     return walk.leg_.failure() ? std::numeric_limits<signals::Tick>::max() : walk.next_sample_;

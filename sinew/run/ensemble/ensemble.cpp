@@ -202,11 +202,7 @@ std::unique_ptr<Ensemble::Member> Ensemble::member(std::span<const double> value
 
 std::unique_ptr<Ensemble::Member> Ensemble::member_with(
     std::span<const double> values, const std::vector<std::string>& texts) const {
-  std::shared_ptr<const analysis::Selection> selection;
-  {
-    const std::lock_guard lock(mutex_);
-    selection = selection_;
-  }
+  std::shared_ptr<const analysis::Selection> selection = this->selection();
   std::unique_ptr<Member> out;
   if (texts == start_.values)
     return std::make_unique<Member>(
@@ -254,9 +250,25 @@ void Ensemble::find_plan_parameters() const {
   of_plan_ = std::move(found);
 }
 
+std::shared_ptr<const analysis::Selection> Ensemble::selection() const {
+  const std::lock_guard lock(mutex_);
+  return selection_;
+}
+
+// Returns the chosen device; the card of an earlier call stays open.
+Device Ensemble::device_of(const Device& wanted, std::size_t rows) const {
+  if (wanted.kind == Device::Kind::automatic && rows < fewest_on_card)
+    return {.kind = Device::Kind::cpu};
+  const std::lock_guard lock(mutex_);
+  if (wanted.card || !(device_ == wanted) || !device_.card) device_ = chosen(wanted);
+  return device_;
+}
+
 std::string Ensemble::plan_of(const Member& member) const {
+  const bool are_read = reads();  // then a key may determine others
   const std::lock_guard lock(mutex_);
   if (of_plan_.empty()) find_plan_parameters();
+  if (are_read) of_plan_.assign(parameters_.size(), true);
   std::string out = fmt::format("{} ", static_cast<const void*>(this));
   for (std::size_t i = 0; i < of_plan_.size() && i < member.values.size(); ++i)
     if (of_plan_[i]) out += member.values[i] + '\n';
@@ -328,7 +340,7 @@ std::vector<std::string> Ensemble::run(std::span<const double> values, std::span
     throw std::invalid_argument(
         fmt::format("found {} values and room for {} figures; expected {} and {} for each run",
                     values.size(), figures.size(), width, wide));
-  const Device device = chosen(options.device);
+  const Device device = device_of(options.device, rows);
   std::ranges::fill(figures, std::numeric_limits<double>::quiet_NaN());
   std::vector<std::string> status(rows, "not run");
   std::atomic<std::size_t> taken{0};
@@ -349,7 +361,13 @@ std::vector<std::string> Ensemble::run(std::span<const double> values, std::span
         figures[row * wide + i] = *figure;
     if (options.progress) ++*options.progress;
   };
-  run_on(device, rows, {.next = next, .begin = begin, .done = done, .lanes = options.lanes},
+  run_on(device, rows,
+         {.next = next,
+          .begin = begin,
+          .done = done,
+          .lanes = options.lanes,
+          .stopped = [&] { return options.stop && options.stop->load(); },
+          .notice = options.notice},
          host::threads_of(options.threads));
   if (const std::exception_ptr wrong = misspelt()) std::rethrow_exception(wrong);
   return status;

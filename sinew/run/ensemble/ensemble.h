@@ -58,11 +58,12 @@ class Ensemble {
   const std::vector<std::string>& units() const { return start_.numbers.units(); }
 
   struct Options {
-    int threads = 0;                                // 0: one per core
-    int lanes = 8;                                  // runs side by side in a thread, at most
-    Device device = {};                             // the processor or a card
-    const std::atomic<bool>* stop = nullptr;        // true: no further runs are begun
-    std::atomic<std::int64_t>* progress = nullptr;  // completed runs
+    int threads = 0;                                      // 0: one per core
+    int lanes = 8;                                        // runs side by side in a thread, at most
+    Device device = {};                                   // the processor or a card
+    std::function<void(const std::string&)> notice = {};  // takes a sentence about a card
+    const std::atomic<bool>* stop = nullptr;              // true: no further runs are begun
+    std::atomic<std::int64_t>* progress = nullptr;        // completed runs
   };
   // Runs one experiment per row of `values` (parameters, in SI) and writes its figures (in SI; NaN:
   // the run has no such figure) to the row of `figures`. Returns the status of each run: "ok", or
@@ -105,6 +106,8 @@ class Ensemble {
   std::unique_ptr<Member> member(std::span<const double> values) const;
   // Keeps the memory of a member that is no longer needed for another one.
   void keep(std::unique_ptr<Member> member) const;
+  // Returns what the figures are computed from, once a run has found it; else nullptr.
+  std::shared_ptr<const analysis::Selection> selection() const;
   // Returns a text that is equal for members with the same robot, as far as its gait controller
   // knows it, and the same plan.
   std::string plan_of(const Member& member) const;
@@ -129,6 +132,7 @@ class Ensemble {
                                       const std::vector<std::string>& texts) const;
   std::unique_ptr<Member> spare() const;
   void find_plan_parameters() const;
+  Device device_of(const Device& wanted, std::size_t rows) const;
   bool reads() const;
   analysis::Summary figures_of(const Member& member, const Outcome& outcome, bool& no_air) const;
   void check_figures(const analysis::Summary& whole) const;
@@ -150,6 +154,7 @@ class Ensemble {
   mutable bool reads_ = false;           // they differed: the file is read for every run
   mutable std::exception_ptr misspelt_;  // refusal of a figure
   mutable std::shared_ptr<const analysis::Selection> selection_;
+  mutable Device device_;              // the last one, with its card
   mutable std::vector<bool> of_plan_;  // parameters that the gait controller uses; empty: not found
   mutable std::vector<std::unique_ptr<Member>> spare_;
 };

@@ -146,7 +146,6 @@ TEST(Ensemble, IsTheSameForAnyNumberOfThreadsAndLanes) {
     }
 }
 
-// A refused row has the words of a single run, and others are not disturbed.
 // Walks that a card holds, with plans of their own and equal ones, and others: a row that is
 // refused, one whose plan measures, and one that ends early.
 TEST(Ensemble, ACardHasTheBitsOfTheProcessor) {
@@ -161,6 +160,7 @@ TEST(Ensemble, ACardHasTheBitsOfTheProcessor) {
   const std::vector<std::string> keys = {"seed", "trolley.drag", "phase.swing.duration",
                                          "muscle.hip_flexor.count"};
   const Ensemble walks(walk, {}, keys, all);
+  ASSERT_TRUE(fits_batch(walks.example()));
   std::mt19937 random(11);
   std::vector<double> values;
   for (int i = 0; i < 12; ++i)
@@ -173,6 +173,7 @@ TEST(Ensemble, ACardHasTheBitsOfTheProcessor) {
   EXPECT_NE(status[5], "ok");
 }
 
+// A refused row has the words of a single run, and others are not disturbed.
 TEST(Ensemble, ARefusedRowSaysWhy) {
   const Ensemble ensemble(leg, {}, {"link.femur.mass"}, {"air_used_kg"});
   const std::vector<double> values = {0.3, -1, std::nan(""), 1e9, 0.3};

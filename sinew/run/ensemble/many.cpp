@@ -92,6 +92,8 @@ struct BatchMember {
   BegunRun run;
 };
 
+bool is_stopped(const Many& many) { return many.stopped && many.stopped(); }
+
 const signals::TopicNames* topics_of(const BegunRun& run) {
   return run.member->selection ? &run.member->selection->topics() : nullptr;
 }
@@ -105,18 +107,38 @@ void begin_member(const Many& many, BatchMember& its) {
   if (!its.run.member) many.done(its.number, std::move(refused));
 }
 
-// Begins the next runs, at most `most`, in parallel.
-std::vector<BatchMember> begin_batch(const Many& many, std::size_t most, int threads) {
-  std::vector<BatchMember> batch;
-  while (batch.size() < most) {
+// The next runs, begun in parallel, at most `most`; `is_last`: there are no more.
+struct Batch {
+  std::vector<BatchMember> members;
+  bool is_last = false;
+};
+Batch begin_batch(const Many& many, std::size_t most, int threads) {
+  Batch batch;
+  while (batch.members.size() < most && !batch.is_last) {
     const std::optional<std::size_t> number = many.next();
-    if (!number) break;
-    batch.push_back({*number, {}});
+    if (number)
+      batch.members.push_back({*number, {}});
+    else
+      batch.is_last = true;
   }
   host::side_by_side(
-      batch.size(), [&](std::size_t i) { begin_member(many, batch[i]); }, nullptr, threads);
-  std::erase_if(batch, [](const BatchMember& its) { return !its.run.member; });
+      batch.members.size(), [&](std::size_t i) { begin_member(many, batch.members[i]); }, nullptr,
+      threads);
+  std::erase_if(batch.members, [](const BatchMember& its) { return !its.run.member; });
   return batch;
+}
+
+// Runs one of each ensemble whose channels are not known by itself, which finds them for the
+// others.
+void find_channels(const Many& many, std::vector<BatchMember>& members) {
+  for (BatchMember& its : members) {
+    if (its.run.member->selection) continue;
+    its.run.member->selection = its.run.ensemble->selection();
+    if (its.run.member->selection || is_stopped(many)) continue;
+    many.done(its.number, refusing([&] { return run_alone(std::move(its.run)); }));
+    its.run.member.reset();
+  }
+  std::erase_if(members, [](const BatchMember& its) { return !its.run.member; });
 }
 
 // Runs all in lanes on threads.
@@ -129,7 +151,7 @@ void run_in_threads(const Many& many, std::size_t threads) {
 void run_rest(const Many& many, std::vector<BatchMember> rest, int threads) {
   std::atomic<std::size_t> taken{0};
   const auto next = [&]() -> std::optional<std::size_t> {
-    const std::size_t i = taken++;
+    const std::size_t i = is_stopped(many) ? rest.size() : taken++;
     return i < rest.size() ? std::optional(i) : std::nullopt;
   };
   const auto begin = [&](std::size_t i) { return std::move(rest[i].run); };
@@ -143,33 +165,31 @@ void run_rest(const Many& many, std::vector<BatchMember> rest, int threads) {
 }  // namespace
 
 void run_many_in_batches(const Many& many, const InBatches& how, int threads) {
-  // The first run finds the channels that the others record.
-  if (const std::optional<std::size_t> number = many.next()) {
-    BatchMember first{*number, {}};
-    begin_member(many, first);
-    if (first.run.member)
-      many.done(*number, refusing([&] { return run_alone(std::move(first.run)); }));
-  }
-  for (bool failed = false; !failed;) {
-    std::vector<BatchMember> batch = begin_batch(many, how.most, threads), rest;
-    if (batch.empty()) return;
-    // A run without known channels would record all of them.
+  for (bool failed = false, is_last = false; !failed && !is_last;) {
+    Batch batch = begin_batch(many, how.most, threads);
+    is_last = batch.is_last;
+    find_channels(many, batch.members);
     std::vector<BatchedRun> runs;
-    for (const BatchMember& its : batch)
+    for (const BatchMember& its : batch.members)
       runs.push_back({topics_of(its.run) ? &its.run.member->experiment : nullptr,
                       topics_of(its.run), its.run.ensemble->plan_of(*its.run.member)});
     const auto done = [&](std::size_t i, const Outcome& outcome) {
-      BegunRun& its = batch[i].run;
-      many.done(batch[i].number,
+      BegunRun& its = batch.members[i].run;
+      many.done(batch.members[i].number,
                 refusing([&] { return its.ensemble->result(std::move(its.member), outcome); }));
     };
     try {
-      run_batch(runs, how.launcher, threads, done);
-    } catch (const std::runtime_error&) {
+      run_batch(
+          runs, how.launcher, threads, [&] { return is_stopped(many); }, done);
+    } catch (const WrongBits&) {
+      throw;
+    } catch (const std::exception& e) {
       if (!how.continues) throw;
       failed = true;
+      if (many.notice) many.notice(std::string(e.what()) + "; the processor continues");
     }
-    for (BatchMember& its : batch)
+    std::vector<BatchMember> rest;
+    for (BatchMember& its : batch.members)
       if (its.run.member) rest.push_back(std::move(its));
     run_rest(many, std::move(rest), threads);
   }
@@ -177,8 +197,8 @@ void run_many_in_batches(const Many& many, const InBatches& how, int threads) {
 }
 
 void run_on(const Device& device, std::size_t runs, const Many& many, int threads) {
-  const bool asked = device.kind == Device::Kind::gpu;
-  if (!device.card || (!asked && runs < fewest_on_card)) {
+  const bool is_named = device.kind == Device::Kind::gpu;
+  if (!device.card || (!is_named && (runs < fewest_on_card || device.card->has_failed()))) {
     const std::size_t count =
         std::min(static_cast<std::size_t>(threads), std::max<std::size_t>(1, runs));
     Many its = many;
@@ -190,7 +210,7 @@ void run_on(const Device& device, std::size_t runs, const Many& many, int thread
       many,
       {{[&](const Batched& batched) { card.launch(batched); }, [&] { return card.memory(); }},
        card.runs(),
-       !asked},
+       !is_named},
       threads);
 }
 

@@ -32,15 +32,18 @@ struct Many {
   // Receives the results, in any order. Must not throw.
   std::function<void(std::size_t, RunResult)> done;
   int lanes = 8;  // largest number; 1: one after the other
+  // Return whether no further run is to be begun, and take a sentence for the user; may be absent.
+  std::function<bool()> stopped = {};
+  std::function<void(const std::string&)> notice = {};
 };
 // Runs all in this thread (run/simulation/lanes.h). Each result has the wanted figures of the
 // same single run.
 void run_many(const Many& many);
 
-// Runs all, `runs` in number, on this chosen device (device.h), and on threads of the processor
-// what a card does not hold; fewer than fewest_on_card only on a card that was asked for. The
-// results are those of run_many(). Throws std::runtime_error if a card that was asked for fails; in
-// place of an automatic one the processor continues.
+// Runs all, `runs` in number, on this chosen device (device.h): fewer than fewest_on_card only on a
+// card that was named. Runs that do not suit a card, or fail on it, use threads of the processor.
+// The results are those of run_many(). Throws std::runtime_error if a named card fails, and
+// WrongBits; where an automatic one fails, the processor continues, with a notice.
 void run_on(const Device& device, std::size_t runs, const Many& many, int threads);
 
 // Runs on an automatic card are at least this many: fewer are faster on the processor.

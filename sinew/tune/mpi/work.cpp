@@ -251,7 +251,11 @@ void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads,
     std::vector<std::size_t> points;
     for (const Json& point : json.at("points").list()) points.push_back(point.natural());
     const auto done = [&](const Row& row) { ranks.send(0, packed({{"row", json_of(row)}})); };
-    runner->run(points, threads, done, device);
+    try {
+      runner->run(points, threads, done, device);
+    } catch (const std::exception& e) {
+      ranks.send(0, packed({{"error", e.what()}}));
+    }
   }
   ranks.send(0, packed({{"end", true}}));
 }
