@@ -1,7 +1,7 @@
-# gnuplot -c studies/fine.gp FOLDER docs/evidence/studies PICTURE.png   plots the maps of studies/fine.sh, and as circles the points of the
-# tables in the repository.
+# gnuplot -c studies/fine.gp FOLDER docs/evidence/studies docs/pictures   plots the maps of studies/fine.sh, and as circles the points of the
+# tables in the repository, as maps.png and largest-gains.png.
 set terminal pngcairo size 1320,760 font "DejaVu Sans,9" noenhanced
-set output ARG3
+set output ARG3 . "/maps.png"
 set datafile separator ","
 set multiplot layout 2,3
 set border 3
@@ -41,4 +41,26 @@ unset logscale x
 set title "leg-in-air"
 set xlabel "desired stiffness of the hip [lbf in/rad]"; set ylabel "range of the hip [deg]"
 plot fine("range-stiffness") every ::1 using 1:($3 - $2) with dots lc rgb blue, coarse("range-stiffness") every ::1 using 1:($3 - $2) with points pt 6 lc rgb blue
+unset multiplot
+
+set terminal pngcairo size 1000,640 font "DejaVu Sans,9" noenhanced
+set output ARG3 . "/largest-gains.png"
+set multiplot layout 2,2
+set title "leg-in-air"
+set ylabel "largest angle gain of the hip [%/count]"
+dot = "with points pt 7 ps 0.25 lc rgb blue"
+set logscale y
+set yrange [0.1:0.5]
+set ytics (0.1, 0.15, 0.2, 0.3, 0.4)
+set xlabel "desired stiffness of the hip [lbf in/rad]"
+plot fine("gain-stiffness") every ::1 using 1:3 @dot, coarse("gain-stiffness") every ::1 using 1:3 with points pt 6 lc rgb blue
+unset logscale y
+set yrange [*:*]
+set ytics autofreq
+set xlabel "stiffness gain of the hip [%/(lbf in/rad)]"
+plot fine("gain-stiffness-gain") every ::1 using 1:3 @dot, coarse("gain-stiffness-gain") every ::1 using 1:3 with points pt 6 lc rgb blue
+set xlabel "duration of the swing [s]"
+plot fine("gain-duration") every ::1 using 1:3 @dot, coarse("gain-duration") every ::1 using 1:3 with points pt 6 lc rgb blue
+set xlabel "inertia of the femur [lb in2]"
+plot fine("gain-inertia") every ::1 using 1:3 @dot, coarse("gain-inertia") every ::1 using 1:3 with points pt 6 lc rgb blue
 unset multiplot
