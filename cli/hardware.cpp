@@ -14,11 +14,14 @@
 #include "fmu/export/export.h"
 #include "sinew/card/walk.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/shipped.h"
+#include "sinew/experiment/experiment.h"
 #include "sinew/host/doctor.h"
 #include "sinew/host/realtime.h"
 #include "sinew/json/json.h"
 #include "sinew/run/bring_up/bring_up.h"
 #include "sinew/run/bring_up/firmware.h"
+#include "sinew/run/card/speed.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/simulation/place.h"
 
@@ -73,11 +76,24 @@ host::Latency measure() {
   return host::measure_latency(1);
 }
 
+// Returns nothing without the shipped experiments.
+std::optional<double> walks_per_second(const card::Properties& properties) {
+  std::optional<experiment::Experiment> walk;
+  try {
+    walk = experiment::load((config::shipped_folder() / "experiments/walk-test-1.toml").string());
+  } catch (const config::Error&) {
+    return {};
+  }
+  run::Card card(properties);
+  return run::runs_per_second(card, *walk);
+}
+
 ExitCode examine(const DoctorOptions& options) {
   const std::vector<host::Finding> findings = host::examine({
       .latency = measure,
       .cards = card::list,
       .has_card_program = !card::walk_ptx().empty(),
+      .card_speed = walks_per_second,
   });
   const bool ready = host::is_ready(findings, options.place);
   if (options.json)

@@ -92,7 +92,7 @@ TEST_F(Card, AClearedBufferIsZero) {
 }
 
 TEST_F(Card, EachUsableCardIsListedWithItsNumber) {
-  play("cards=3 old-card memory=5000000000");
+  play("cards=3 old-card memory=5000000000 multiprocessors=4");
   std::string problem;
   const std::vector<Properties> all = list(problem);
   EXPECT_EQ(problem, "");

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -274,14 +275,21 @@ void check_cards(const DoctorOptions& options, Findings& out) {
         "sudo apt-get install nvidia-driver   # if the computer has a card of NVIDIA");
   for (const card::Properties& c : cards) {
     const std::string found =
-        fmt::format("{}: {}, {:.0f} GB, {} multiprocessors, driver for CUDA {}", c.number, c.name,
-                    static_cast<double>(c.memory) / 1e9, c.multiprocessors, c.driver);
-    if (options.has_card_program)
-      add(found, "");
-    else
+        fmt::format("{}: {}, {:.0f} GB, {} multiprocessor{}, driver for CUDA {}", c.number, c.name,
+                    static_cast<double>(c.memory) / 1e9, c.multiprocessors,
+                    c.multiprocessors == 1 ? "" : "s", c.driver);
+    if (!options.has_card_program) {
       add(found + "; this build has no program for it",
           "tools/install-dependencies.sh card   # then "
           "cmake --preset release && cmake --build --preset all");
+      continue;
+    }
+    try {
+      const auto speed = options.card_speed ? options.card_speed(c) : std::nullopt;
+      add(found + (speed ? fmt::format(", {:.0f} walks of test 1 per second", *speed) : ""), "");
+    } catch (const std::runtime_error& e) {
+      add(fmt::format("{}; {}", found, e.what()), "device=cpu runs studies without it");
+    }
   }
 }
 

@@ -39,6 +39,9 @@ struct DoctorOptions {
   std::function<std::vector<card::Properties>(std::string& problem)> cards;  // card::list; empty:
                                                                              // not examined
   bool has_card_program = false;  // this build has a program for graphics cards (card/walk.h)
+  // Returns the walks of test 1 that a card makes per second, or nothing. Throws std::runtime_error
+  // if the card fails. Empty: not measured.
+  std::function<std::optional<double>(const card::Properties&)> card_speed;
 };
 
 // Runs all checks and changes nothing. The findings are in the order in which they should be read.

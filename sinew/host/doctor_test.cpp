@@ -59,7 +59,8 @@ class Doctor : public ::testing::Test {
                           problem = problem_;
                           return cards_;
                         },
-                    .has_card_program = has_card_program_});
+                    .has_card_program = has_card_program_,
+                    .card_speed = card_speed_});
   }
   static Finding find(const std::vector<Finding>& all, const std::string& subject) {
     for (const Finding& f : all)
@@ -88,6 +89,7 @@ class Doctor : public ::testing::Test {
                                         .driver = "13.0"}};
   std::string problem_;
   bool has_card_program_ = true;
+  std::function<std::optional<double>(const card::Properties&)> card_speed_;
 };
 
 TEST_F(Doctor, OfAComputerOnWhichNothingIsWrongAllIsGood) {
@@ -200,6 +202,14 @@ TEST_F(Doctor, AnAdapterThatCollectsFor16MillisecondsIsReportedWithTheRemedy) {
 TEST_F(Doctor, EachGraphicsCardIsListedAndTheReasonIfItCannotBeUsed) {
   EXPECT_EQ(find(look(), "graphics card").found,
             "0: NVIDIA H200, 150 GB, 132 multiprocessors, driver for CUDA 13.0");
+  card_speed_ = [](const card::Properties&) { return std::nullopt; };
+  EXPECT_TRUE(find(look(), "graphics card").found.ends_with("driver for CUDA 13.0"));
+  card_speed_ = [](const card::Properties&) { return 1234.5678; };
+  EXPECT_TRUE(find(look(), "graphics card").found.ends_with(", 1235 walks of test 1 per second"));
+  card_speed_ = [](const card::Properties&) -> std::optional<double> {
+    throw std::runtime_error("the graphics card failed");
+  };
+  EXPECT_TRUE(only("graphics card").found.ends_with("; the graphics card failed"));
   has_card_program_ = false;
   const Finding unused = only("graphics card");
   EXPECT_TRUE(unused.found.ends_with("; this build has no program for it")) << unused.found;

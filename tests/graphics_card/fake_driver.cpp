@@ -13,6 +13,7 @@
 //   old-card     the first card has compute capability 7.5
 //   cards=2      number of cards; default: 1
 //   memory=1000  memory of a card [byte]; default: 1 GB
+//   multiprocessors=4   of a card; default: 1
 //   load         the compiler refuses every program, with a message
 //   launch       no kernel can be launched
 //   wait         a launched kernel fails
@@ -143,7 +144,7 @@ int cuDeviceGetName(char* name, int size, int device) {
 
 int cuDeviceGetAttribute(int* value, int attribute, int device) {
   const bool old = device == 0 && setting("old-card");
-  if (attribute == 16) *value = 4;
+  if (attribute == 16) *value = static_cast<int>(setting("multiprocessors", 1));
   if (attribute == 75) *value = old ? 7 : 9;
   if (attribute == 76) *value = old ? 5 : 0;
   return attribute == 16 || attribute == 75 || attribute == 76 ? 0 : invalid_value;
