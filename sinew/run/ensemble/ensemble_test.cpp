@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <random>
 
@@ -171,6 +172,25 @@ TEST(Ensemble, ACardHasTheBitsOfTheProcessor) {
   EXPECT_EQ(status, walks.run(values, here, {.threads = 2, .device = {Device::Kind::cpu}}));
   EXPECT_EQ(std::memcmp(on_card.data(), here.data(), here.size() * sizeof(double)), 0);
   EXPECT_NE(status[5], "ok");
+}
+
+TEST(Ensemble, TheProcessorReplacesAnAutomaticCardThatFails) {
+  if (card::walk_ptx().empty()) GTEST_SKIP() << "built without a program for graphics cards";
+  ASSERT_TRUE(dlopen((test::build_dir() + "/tests/graphics_card/libcuda.so.1").c_str(), RTLD_NOW))
+      << dlerror();
+  const Ensemble walks(leg, {"sequence.repeat=1", "start.settle=0.1 s"}, {"seed"}, {"air_used_kg"});
+  std::vector<double> values, here(fewest_on_card), found(fewest_on_card);
+  for (std::size_t i = 0; i < fewest_on_card; ++i) values.push_back(1.0 + static_cast<double>(i));
+  (void)walks.run(values, here, {.device = {Device::Kind::cpu}});
+  ::setenv("SINEW_FAKE_CARD", "wait", 1);
+  EXPECT_EQ(walks.run(values, found, Ensemble::Options{}),
+            std::vector<std::string>(fewest_on_card, "ok"));
+  EXPECT_EQ(found, here);
+  EXPECT_NE(message([&] {
+              (void)walks.run(values, found, {.device = {Device::Kind::gpu}});
+            }).find("cuCtxSynchronize: CUDA_ERROR_LAUNCH_FAILED, 719"),
+            std::string::npos);
+  ::unsetenv("SINEW_FAKE_CARD");
 }
 
 // A refused row has the words of a single run, and others are not disturbed.
