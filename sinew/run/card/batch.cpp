@@ -131,7 +131,7 @@ std::unique_ptr<Prepared> prepare(const BatchedRun& run) {
   }
 }
 
-// What all columns of the runs depend on, ascending.
+// Returns the words of Shown that the columns of all runs depend on, ascending.
 std::vector<std::uint16_t> wanted_words(std::span<Prepared* const> runs) {
   std::set<std::string> seen;
   std::vector<std::uint16_t> all;

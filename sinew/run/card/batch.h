@@ -26,7 +26,7 @@ struct Batched {
   std::span<std::uint64_t> sample;
   std::span<std::uint32_t> edge;
 };
-// What runs them.
+// A card or the processor, which runs them.
 struct Launcher {
   // Runs all of them to their ends. Throws std::runtime_error if it cannot.
   std::function<void(const Batched&)> launch;
@@ -43,8 +43,8 @@ struct WrongBits : std::runtime_error {
 struct BatchedRun {
   const experiment::Experiment* experiment = nullptr;  // nullptr: it is to be run by itself
   const signals::TopicNames* topics = nullptr;         // those that its table records; nullptr: all
-  std::string plan;  // runs with equal texts have the same robot as far as its controller knows it,
-                     // and the same plan
+  std::string plan;  // runs with equal texts have the same plan, and the same robot as its
+                     // controller has it
 };
 
 // Returns whether a machine of this experiment, and its plan, can be held by a batch: a leg of two

@@ -54,9 +54,9 @@ struct PackedEdge {
   }
 };
 
-// Where runs of one launch write what is kept of them: of each sample some words of Shown, and the
-// edges. Number i of a run is at [i * runs + run], so that neighbouring runs write to neighbouring
-// places.
+// The memory for what is kept of the runs of one launch: of each sample some words of Shown, and
+// the edges. Number i of a run is at [i * runs + run], so that neighbouring runs write to
+// neighbouring places.
 struct Kept {
   const std::uint16_t* wanted = nullptr;  // words of Shown, ascending
   std::int32_t words = 0;                 // their number
@@ -74,7 +74,7 @@ struct CommandRows {
   signals::Tick vents_at = std::numeric_limits<signals::Tick>::max();  // the plan has finished
 };
 
-// What a launch has in common. The pointers are those of the memory where it runs.
+// Inputs of all runs of a launch. The pointers are those of the memory where it runs.
 struct Launch {
   const control::Command* commands = nullptr;  // of all plans
   Kept kept;
