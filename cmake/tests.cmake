@@ -11,6 +11,7 @@
 #   coverage   ./check faces    COVERAGE: how often an interval contains the true value, in many trials
 #   guard      ./check faces    a few tries each; ./check long NAME runs many
 #   long       ./check long
+#   device     ./check device   skipped without a graphics card
 #
 # The target sinew_tests builds all programs that have tests of the first label.
 

@@ -88,6 +88,13 @@ step_resets() {
   grep -o 'memory: .*' "$logs/resets.log" | tail -n 1
 }
 
+# Compares runs on a graphics card with the processor's. It is only run by its name.
+step_device() {
+  build_program && cmake --build "$build" --target sinew_device_test || return 1
+  SINEW_GUARD_COUNT=${SINEW_GUARD_COUNT:-$(column device 4)} "$build/tests/sinew_device_test" | tee "$logs/device-test" || return 1
+  grep '^device: ' "$logs/device-test" || echo "device: NOT CHECKED: $(grep -m1 '^found ' "$logs/device-test")"
+}
+
 # Runs a guard of the table with many tries, or a program under sanitizers: asan-PROGRAM.
 step_guard() {  # step_guard NAME
   [[ $1 != asan-* ]] || { step_asan "${1#asan-}"; return; }

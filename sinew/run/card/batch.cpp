@@ -219,6 +219,16 @@ bool fits_batch(const Experiment& e) {
   return plant::FlatLeg::fits(setup) && boards_of(e).size() == 1;
 }
 
+void launch_on_processor(const Batched& batched) {
+  const Launch launch{
+      batched.commands.data(),
+      {batched.wanted.data(), static_cast<std::int32_t>(batched.wanted.size()), batched.samples,
+       batched.edges, static_cast<std::int64_t>(batched.walks.size()), batched.sample.data(),
+       batched.edge.data()}};
+  for (std::size_t i = 0; i < batched.walks.size(); ++i)
+    batched.walks[i].run(launch, static_cast<std::int64_t>(i), true, [](bool x) { return x; });
+}
+
 namespace {
 
 // The memory of one launch.

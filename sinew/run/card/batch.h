@@ -34,6 +34,9 @@ struct Launcher {
   std::function<std::size_t()> memory = [] { return std::size_t{1} << 30; };
 };
 
+// Runs them on the processor, one after the other.
+void launch_on_processor(const Batched& batched);
+
 // The error of a launcher that computes other bits than the processor.
 struct WrongBits : std::runtime_error {
   using std::runtime_error::runtime_error;
