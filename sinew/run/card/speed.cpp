@@ -18,6 +18,7 @@ std::vector<Walk> walks_of(const experiment::Experiment& experiment, const Contr
   const SingleBoard board{controllers.boards().each().front(), controllers.scan().period};
   plant::Setup setup = planar_setup(experiment);
   std::vector<Walk> out;
+  out.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     setup.seed = i + 1;
     out.emplace_back(plant::FlatLeg(setup), board, Walk::Timing{last, last, last});
