@@ -37,11 +37,12 @@ class OnCard : public ::testing::Test {
   std::vector<std::string> hashes(const std::vector<BatchedRun>& runs) const {
     run::Card& card = *device_.card;
     std::vector<std::string> out(runs.size());
-    run::run_batch(runs,
-                   {[&](const run::Batched& b) { card.launch(b); }, [&] { return card.memory(); }},
-                   threads_, [&](std::size_t i, const run::Outcome& outcome) {
-                     out[i] = analysis::state_hash(outcome.table);
-                   });
+    run::run_batch(
+        runs, {[&](const run::Batched& b) { card.launch(b); }, [&] { return card.memory(); }},
+        threads_, [] { return false; },
+        [&](std::size_t i, const run::Outcome& outcome) {
+          out[i] = analysis::state_hash(outcome.table);
+        });
     return out;
   }
 

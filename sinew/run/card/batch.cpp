@@ -253,23 +253,19 @@ class Part {
   Part& operator=(const Part&) = delete;
 
   // Runs them, and passes the outcomes of those that ended well to done(number, outcome) from
-  // threads, after one has been compared with run().
+  // threads, after the first and the last have been compared with run().
   template <class Done>
   void run(const Launcher& launcher, const Done& done) {
     launcher.launch(batched_);
     const auto finish = [&](std::size_t i) { return runs_[i]->outcome(walks_[i], batched_, i); };
-    const auto first =
-        static_cast<std::size_t>(std::ranges::find_if(walks_, ended_well) - walks_.begin());
-    if (first == walks_.size()) return;
-    Outcome compared = finish(first);
-    compare_with_alone(runs_[first]->run(), compared);
-    done(first, std::move(compared));
+    std::vector<std::size_t> ended;
+    for (std::size_t i = 0; i < walks_.size(); ++i)
+      if (ended_well(walks_[i])) ended.push_back(i);
+    if (ended.empty()) return;
+    compare_with_alone(runs_[ended.front()]->run(), finish(ended.front()));
+    if (ended.size() > 1) compare_with_alone(runs_[ended.back()]->run(), finish(ended.back()));
     host::side_by_side(
-        runs_.size(),
-        [&](std::size_t i) {
-          if (ended_well(walks_[i])) done(i, finish(i));
-        },
-        nullptr, threads_);
+        ended.size(), [&](std::size_t k) { done(ended[k], finish(ended[k])); }, nullptr, threads_);
   }
 
  private:

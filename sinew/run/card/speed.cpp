@@ -33,7 +33,7 @@ std::vector<Walk> walks_of(const experiment::Experiment& experiment, const Contr
 double runs_per_second(Card& card, const experiment::Experiment& experiment) {
   const Controllers controllers(experiment, nullptr);
   const signals::Tick last = experiment::last_tick(experiment);
-  const PlanTable plan(controllers, last);
+  const PlanTable plan(experiment, controllers);
   const auto batched = [&](std::vector<Walk>& walks) {
     return Batched{.walks = walks, .commands = plan.commands()};
   };

@@ -50,10 +50,12 @@ TEST(Batch, WalksHaveTheBitsOfRunsAlone) {
     runs.push_back({&members.back()->experiment, nullptr, walks.plan(seed)});
   }
   std::atomic<int> held = 0;
-  run_batch(runs, {launch_on_processor}, 2, [] { return false; }, [&](std::size_t i, const Outcome& outcome) {
-    ++held;
-    expect_same(outcome, run(*runs[i].experiment));
-  });
+  run_batch(
+      runs, {launch_on_processor}, 2, [] { return false; },
+      [&](std::size_t i, const Outcome& outcome) {
+        ++held;
+        expect_same(outcome, run(*runs[i].experiment));
+      });
   EXPECT_GT(held, 190);  // the others are run by themselves
 }
 
