@@ -14,7 +14,7 @@
 
 namespace sinew::plant {
 
-// What a plain chain has in addition to its lane (lane_events.h): its only lane is 0.
+// Parts of a plain chain in addition to its lane (lane_events.h): its only lane is 0.
 template <int N>
 class FlatMachine {
  public:

@@ -166,7 +166,7 @@ class LaneEvents<N, W, Machines>::LaneView {
     }
     return p;
   }
-  // Returns all of it.
+  // Returns the whole preview.
   Preview preview(double t) noexcept {
     Preview p;
     b_.update_step_preview(k_);

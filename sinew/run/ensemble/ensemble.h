@@ -108,8 +108,8 @@ class Ensemble {
   void keep(std::unique_ptr<Member> member) const;
   // Returns what the figures are computed from, once a run has found it; else nullptr.
   std::shared_ptr<const analysis::Selection> selection() const;
-  // Returns a text that is equal for members with the same robot, as far as its gait controller
-  // knows it, and the same plan.
+  // Returns a text that is equal for members with the same plan, and with the same robot as far as
+  // its gait controller uses it.
   std::string plan_of(const Member& member) const;
   // Returns the result of a run, with all figures or with the wanted ones, and keeps the member's
   // memory for another one.
