@@ -18,6 +18,7 @@ function report(what) { print FILENAME ":" FNR ": " what ": " $0; findings = 1 }
 /\.ftz/                                  { report("small numbers are replaced by zero") }
 # Without a rounding, the compiler of the driver may fuse an operation with the next one.
 /(^|[^A-Za-z_])(add|sub|mul)\.f(32|64)/  { report("an operation without a rounding") }
+match($0, /\.param [^;]*\[[0-9]+\]/)      { n = substr($0, RSTART, RLENGTH); sub(/.*\[/, "", n); if (n + 0 > 4352) report("a parameter that is too large for a card") }
 /\.visible \.entry walk\(/               { ++entries }
 END {
   if (entries != 1) { print FILENAME ": expected the kernel walk"; findings = 1 }
@@ -48,6 +49,8 @@ self_test() {
   expect 'approximation' 'rcp.approx.ftz.f64 %fd1, %fd2;'
   expect 'approximation' 'div.full.f32 %f1, %f2, %f3;'
   expect 'zero' 'add.rn.ftz.f32 %f1, %f2, %f3;'
+  expect 'too large' '.param .align 8 .b8 retval0[4360];'
+  expect '' '.param .align 8 .b8 retval0[3840];'
   ((failed == 0)) || exit 1
   echo "card-ptx: $count cases of the self-test"
 }

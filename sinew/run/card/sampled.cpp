@@ -10,8 +10,8 @@ namespace {
 
 using Words = std::array<std::uint64_t, words_of<Shown>>;
 
-// Changes bits in each byte: a flag, a count, the digits of a number and its exponent.
-constexpr std::uint64_t changed_bits = 0x0101010101010101;
+// Changes bits in each byte (a flag, a count, the digits of a number and its exponent), and a sign.
+constexpr std::uint64_t changed_bits[] = {0x0101010101010101, std::uint64_t{1} << 63};
 
 // Samples from which words are changed: with different true values, in all phases of the
 // controller, and with its flags set and not.
@@ -65,9 +65,11 @@ std::vector<std::uint16_t> words_behind(std::span<const Column> columns, Control
   for (Words words : samples()) {
     const std::vector<double> before = values_of(columns, words, controllers);
     for (std::size_t w = 0; w < words.size(); ++w) {
-      words[w] ^= changed_bits;
-      needed[w] = needed[w] || !same(before, values_of(columns, words, controllers));
-      words[w] ^= changed_bits;
+      for (const std::uint64_t bits : changed_bits) {
+        words[w] ^= bits;
+        needed[w] = needed[w] || !same(before, values_of(columns, words, controllers));
+        words[w] ^= bits;
+      }
     }
   }
   std::vector<std::uint16_t> out;
