@@ -11,7 +11,7 @@
 // libcuda.so.1 is opened when it is first needed, with declarations of our own: neither a build nor
 // a start of the program depends on it. Every function may be called from any thread. Where no
 // other exception is named, a failure is a std::runtime_error with the driver's call, its error and
-// what can be done.
+// a remedy.
 #pragma once
 
 #include <cstddef>
@@ -34,14 +34,13 @@ struct Properties {
   std::string driver;        // newest version of CUDA that the driver supports, "12.4"
 };
 
-// Returns the usable cards. If there are none, `problem` is a phrase with the reason; otherwise it
-// is empty. Throws nothing.
+// Returns the usable cards. `problem` is empty, or the reason why the list is. Throws nothing.
 std::vector<Properties> list(std::string& problem);
 
 struct Context;
 
-// A program on a card: a kernel that the driver has compiled, with a context of its own. A launch
-// that fails ends the context: all later calls fail too, until another program is made.
+// A program on a card: a kernel that the driver has compiled, with a context of its own. A failed
+// launch ends the context: all later calls fail too, until another program is made.
 class Program {
  public:
   // Compiles the text in PTX for a card and finds the kernel. The compiler's messages are part of

@@ -22,8 +22,8 @@
 
 namespace sinew::plant {
 
-// Parts that each machine has alone: its World, whose valves are in use, and whose motion is that
-// of the lane only after world().
+// Parts that each machine has alone: its World. Its valves are in use; its motion is out of date
+// until world() is called.
 template <int N, int W>
 class LaneWorlds {
   static constexpr auto lanes = static_cast<std::size_t>(W);

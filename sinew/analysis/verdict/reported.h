@@ -113,7 +113,7 @@ class Summary {
  public:
   std::string title;
   std::string reproduces;
-  std::string state_hash;  // of all samples (state_hash.h); empty: no whole simulated run
+  std::string state_hash;  // all samples (state_hash.h); empty: not a whole simulated run
   bool cut_off = false;    // the log was cut off: figures of a part of the run
   std::vector<std::string> warnings;  // events that no figure shows, from the log alone
   std::vector<MachineFault> faults;   // those that began before the log's end

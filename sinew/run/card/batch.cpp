@@ -152,7 +152,7 @@ std::vector<std::uint16_t> wanted_words(std::span<Prepared* const> runs) {
 std::vector<control::Command> take_walks(std::span<Prepared* const> runs, int threads,
                                          std::vector<Walk>& walks) {
   std::map<std::string, std::size_t> group_of;
-  std::vector<const Prepared*> firsts;  // of each group with a plan of its own
+  std::vector<const Prepared*> firsts;  // one run of each group with a plan of its own
   std::vector<std::size_t> groups;
   for (const Prepared* run : runs) {
     const auto [at, is_new] = group_of.try_emplace(run->run().plan, firsts.size());
@@ -303,7 +303,7 @@ void run_batch(std::span<const BatchedRun> runs, const Launcher& launcher, int t
   host::side_by_side(
       runs.size(), [&](std::size_t i) { all[i] = prepare(runs[i]); }, nullptr, threads);
   std::vector<Prepared*> held;
-  std::vector<std::size_t> place;  // of each one in `runs`
+  std::vector<std::size_t> place;  // their numbers in `runs`
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!all[i]) continue;
     held.push_back(all[i].get());

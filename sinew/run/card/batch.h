@@ -56,8 +56,8 @@ struct BatchedRun {
 bool fits_batch(const experiment::Experiment& experiment);
 
 // Runs them and passes the outcome of each one, with the bits of run(), to done(number, outcome),
-// which threads call in any order. A run that does not fit, or that did not end as planned, has
-// none: it is to be run by itself. Prepares and finishes the runs on threads. Two runs of each
+// called by threads in any order. Runs that do not fit, or do not end as planned, have none: they
+// are to be run by themselves. Prepares and finishes the runs on threads. Two runs of each
 // launch are also computed by run() and compared first; throws WrongBits if they differ, and what
 // the launcher throws. Begins no further launch once stopped() returns true.
 void run_batch(std::span<const BatchedRun> runs, const Launcher& launcher, int threads,

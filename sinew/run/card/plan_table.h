@@ -1,5 +1,5 @@
-// run/card/plan_table.h - a plan that measures nothing, as a table: what the gait controller
-// commands in each period does not depend on the machine, so that it is computed before the runs.
+// run/card/plan_table.h - a plan that measures nothing, as a table: its commands in each period do
+// not depend on the machine, and are computed before the runs.
 #pragma once
 
 #include <cstdint>

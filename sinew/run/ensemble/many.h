@@ -49,8 +49,8 @@ void run_on(const Device& device, std::size_t runs, const Many& many, int thread
 // Runs on an automatic card are at least this many: fewer are faster on the processor.
 inline constexpr std::size_t fewest_on_card = 100;
 
-// Runs all in batches of at most `most` runs (run/card/batch.h), which `launch` computes; those
-// that a batch cannot hold are run in lanes on threads. If a launch fails, throws
+// Runs all in batches of at most `most` runs (run/card/batch.h), which `launcher` computes. Runs
+// that do not suit a batch are made in lanes on threads. If a launch fails, throws
 // std::runtime_error, or if it `continues` runs the others on the processor.
 struct InBatches {
   Launcher launcher;

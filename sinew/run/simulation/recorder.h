@@ -62,8 +62,8 @@ class Recorder {
   void sample(signals::Tick t) noexcept;
   signals::Tick next(signals::Tick) const noexcept { return next_; }
 
-  // Records a sample at t with these true values and, instead of the high level's, these setpoints
-  // of a leg.
+  // Records a sample at t with these true values and with these setpoints of a leg in place of the
+  // high level's.
   void sample(signals::Tick t, const plant::Truths& truths, const gait::Desired& desired) noexcept;
 
   // Return the recorded columns, whether edges are recorded, and the ticks from sample to sample.
