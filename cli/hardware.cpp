@@ -21,6 +21,7 @@
 #include "sinew/json/json.h"
 #include "sinew/run/bring_up/bring_up.h"
 #include "sinew/run/bring_up/firmware.h"
+#include "sinew/run/card/on_card.h"
 #include "sinew/run/card/speed.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/simulation/place.h"

@@ -13,6 +13,7 @@
 
 #include "sinew/analysis/state_hash.h"
 #include "sinew/host/side_by_side.h"
+#include "sinew/run/card/on_card.h"
 #include "sinew/run/ensemble/device.h"
 #include "sinew/run/simulation/run.h"
 #include "tests/graphics_card/walks.h"

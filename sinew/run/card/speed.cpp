@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "sinew/run/card/batch.h"
+#include "sinew/run/card/on_card.h"
 #include "sinew/run/card/plan_table.h"
 #include "sinew/run/setup/machine_setup.h"
 

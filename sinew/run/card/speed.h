@@ -2,9 +2,10 @@
 #pragma once
 
 #include "sinew/experiment/experiment.h"
-#include "sinew/run/card/on_card.h"
 
 namespace sinew::run {
+
+class Card;  // on_card.h
 
 // Runs an experiment, which a batch can hold (batch.h), with Card::runs() seeds in one launch
 // without recording. Returns the runs per second of that launch, copies to the card and back

@@ -10,6 +10,7 @@
 #include "sinew/card/driver.h"
 #include "sinew/card/walk.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/run/card/on_card.h"
 
 namespace sinew::run {
 

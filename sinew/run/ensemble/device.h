@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "sinew/run/card/on_card.h"
-
 namespace sinew::run {
+
+class Card;  // run/card/on_card.h
 
 struct Device {
   enum class Kind {

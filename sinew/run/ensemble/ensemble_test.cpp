@@ -13,6 +13,7 @@
 #include "sinew/card/walk.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/run/card/batch.h"
 #include "sinew/run/ensemble/many.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/units/quantity.h"

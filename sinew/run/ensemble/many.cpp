@@ -8,6 +8,8 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/host/side_by_side.h"
+#include "sinew/run/card/on_card.h"
+#include "sinew/run/ensemble/batches.h"
 #include "sinew/run/simulation/lanes.h"
 #include "sinew/units/letters.h"
 

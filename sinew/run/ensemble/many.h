@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "sinew/config/compose.h"
-#include "sinew/run/card/batch.h"
 #include "sinew/run/ensemble/device.h"
 #include "sinew/run/ensemble/ensemble.h"
 
@@ -48,16 +47,6 @@ void run_on(const Device& device, std::size_t runs, const Many& many, int thread
 
 // Runs on an automatic card are at least this many: fewer are faster on the processor.
 inline constexpr std::size_t fewest_on_card = 100;
-
-// Runs all in batches of at most `most` runs (run/card/batch.h), which `launcher` computes. Runs
-// that do not suit a batch are made in lanes on threads. If a launch fails, throws
-// std::runtime_error, or if it `continues` runs the others on the processor.
-struct InBatches {
-  Launcher launcher;
-  std::size_t most = 1;
-  bool continues = false;
-};
-void run_many_in_batches(const Many& many, const InBatches& how, int threads);
 
 // Returns the lanes of each thread, at most `most`, so that all threads have runs.
 int lanes_of(std::size_t runs, std::size_t threads, int most);

@@ -1,6 +1,6 @@
 // Runs in batches have the results of runs in lanes: where memory is short, a launch fails or has
 // wrong bits, and with runs that a batch cannot hold.
-#include "sinew/run/ensemble/many.h"
+#include "sinew/run/ensemble/batches.h"
 
 #include <gtest/gtest.h>
 
