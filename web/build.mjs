@@ -32,7 +32,7 @@ function dark_by_system(css) {
 
 const text_of = (name) => readFileSync(join(src, name), 'utf8');
 
-// `connect`: placeholder in the content security policy of pages that can be served; the program
+// `connect`: mark in the content security policy of pages that can be served; the program
 // replaces it by the address that the page may connect to.
 function page_of(main, style, script, connect = '') {
   let page = text_of('frame.html').replace('/*connect*/', connect);
@@ -41,7 +41,7 @@ function page_of(main, style, script, connect = '') {
   page = page.replace('/*style*/', () => dark_by_system(bundle(style)));
   page = page.replace('/*script*/', () => bundle(script));
 
-  // Each placeholder that the program replaces must occur once.
+  // Each mark that the program replaces must occur once.
   for (const mark of ['@title@', '@units@', '@run@', '@samples@'])
     if (page.split(mark).length !== 2) throw new Error(`${mark} must occur exactly once in frame.html and ${main}`);
   return page;

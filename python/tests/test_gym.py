@@ -231,7 +231,7 @@ assert env.step(numpy.zeros(4))[0].shape == env.observation_space.shape == seen.
 
 class Gymnasium(unittest.TestCase):
     def test_where_it_is_an_environment_is_one_of_its(self) -> None:
-        # Debian 12 has no Gymnasium: a stub with the two names that are used.
+        # Debian 12 has no Gymnasium: a substitute with the two names that are used.
         with tempfile.TemporaryDirectory() as folder:
             os.mkdir(folder + "/gymnasium")
             for name, text in (("__init__", STAND_IN), ("spaces", STAND_IN_SPACES)):

@@ -38,6 +38,7 @@ struct SealedBounds {
 template <int Most>
 struct SealedBounds<Most, 1> {
   std::array<const AirNetwork<Most>*, 0> each = {};
+  // A single machine has no such muscles.
   constexpr explicit SealedBounds(const std::array<const AirNetwork<Most>*, 1>&) {}
   constexpr double operator()(int, int, double, double) const noexcept { return 0; }
 };

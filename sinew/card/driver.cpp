@@ -24,9 +24,8 @@ using Address = unsigned long long;
 // Numbers of the driver's interface.
 constexpr int out_of_memory = 2, no_device = 100;
 constexpr int multiprocessor_count = 16, capability_major = 75, capability_minor = 76;
-constexpr int local_size = 3, register_count = 4;  // properties of a kernel
-constexpr int error_log = 5, error_log_size = 6;   // options of its compiler
-constexpr unsigned sleeps_while_waiting = 4;       // a flag of a context
+constexpr int error_log = 5, error_log_size = 6;  // options of its compiler
+constexpr unsigned sleeps_while_waiting = 4;      // a flag of a context
 
 // Oldest driver and card for our programs: PTX 7.0 for compute capability 8.0 (cmake/card.cmake).
 constexpr int oldest_driver = 11'000;
@@ -51,7 +50,6 @@ struct Library {
   Status (*cuCtxSynchronize)();
   Status (*cuModuleLoadDataEx)(void**, const void*, unsigned, int*, void**);
   Status (*cuModuleGetFunction)(void**, void*, const char*);
-  Status (*cuFuncGetAttribute)(int*, int, void*);
   Status (*cuMemGetInfo_v2)(std::size_t*, std::size_t*);
   Status (*cuMemAlloc_v2)(Address*, std::size_t);
   Status (*cuMemFree_v2)(Address);
@@ -90,7 +88,6 @@ Library open_library() {
   find("cuCtxSynchronize", out.cuCtxSynchronize);
   find("cuModuleLoadDataEx", out.cuModuleLoadDataEx);
   find("cuModuleGetFunction", out.cuModuleGetFunction);
-  find("cuFuncGetAttribute", out.cuFuncGetAttribute);
   find("cuMemGetInfo_v2", out.cuMemGetInfo_v2);
   find("cuMemAlloc_v2", out.cuMemAlloc_v2);
   find("cuMemFree_v2", out.cuMemFree_v2);
@@ -303,9 +300,6 @@ Program::Program(int card, std::string_view ptx, const char* kernel)
   void* module = compile(current, std::string(ptx));
   must(current.call(library().cuModuleGetFunction, &kernel_, module, kernel),
        "cuModuleGetFunction");
-  const auto attribute = library().cuFuncGetAttribute;
-  must(current.call(attribute, &registers_, register_count, kernel_), "cuFuncGetAttribute");
-  must(current.call(attribute, &local_bytes_, local_size, kernel_), "cuFuncGetAttribute");
 }
 
 Program::~Program() = default;

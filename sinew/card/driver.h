@@ -50,10 +50,6 @@ class Program {
   Program(Program&&) noexcept;
   Program& operator=(Program&&) noexcept;
 
-  // Registers and bytes of local memory of each thread.
-  int registers() const { return registers_; }
-  int local_bytes() const { return local_bytes_; }
-
   // Returns the memory of the card that no program uses [byte].
   std::size_t free_memory() const;
 
@@ -69,12 +65,12 @@ class Program {
 
   std::shared_ptr<const Context> context_;
   void* kernel_ = nullptr;
-  int registers_ = 0, local_bytes_ = 0;
 };
 
 // Memory on the card of a program. It may live longer than the program.
 class Buffer {
  public:
+  // Allocates memory; its values are not set.
   Buffer(const Program& program, std::size_t bytes);
   ~Buffer();
   Buffer(Buffer&&) noexcept;

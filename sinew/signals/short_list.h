@@ -18,8 +18,10 @@ class ShortList {
     for (const T& item : items) push_back(item);
   }
 
+  // Appends an item.
   constexpr void push_back(const T& item) { of_[size_++] = item; }
 
+  // The functions of std::vector.
   constexpr std::size_t size() const noexcept { return size_; }
   constexpr T& operator[](std::size_t i) noexcept { return of_[i]; }
   constexpr const T& operator[](std::size_t i) const noexcept { return of_[i]; }

@@ -31,10 +31,12 @@ class LaneWorlds {
  public:
   using World = ChainWorld<N>;
 
+  // Makes a World of each machine.
   explicit LaneWorlds(std::span<const Setup, lanes> setups) {
     for (std::size_t k = 0; k < lanes; ++k) of_[k] = std::make_unique<World>(setups[k]);
   }
 
+  // The functions that lane_events.h calls.
   const ChainMechanism<N>& mechanism(int k) const noexcept { return world(k).mechanism(); }
   const PlanarSenses& senses(int k) const noexcept { return world(k).senses(); }
   signals::Tick lag(int k, signals::Channel channel) const noexcept {
@@ -43,6 +45,7 @@ class LaneWorlds {
   bool ended(int k) const noexcept { return world(k).ended(); }
   void end(int k) noexcept { world(k).mutable_state().ended = true; }
 
+  // Return the positions of its valves, and their number.
   const air::AirValves<chain_muscles>& valves(int k) const noexcept {
     return world(k).state().valves;
   }
@@ -68,6 +71,7 @@ class LaneWorlds {
   bool is_outdated(int k) const noexcept { return outdated_[static_cast<std::size_t>(k)]; }
   void updated(int k) noexcept { outdated_[static_cast<std::size_t>(k)] = false; }
 
+  // Return the World of a lane, and replace it by that of another machine.
   World& world(int k) noexcept { return *of_[static_cast<std::size_t>(k)]; }
   const World& world(int k) const noexcept { return *of_[static_cast<std::size_t>(k)]; }
   void replace(int k, const Setup& setup) {

@@ -30,6 +30,7 @@ class FlatMachine {
     for (int v = 0; v < world.air().valves(); ++v) laws_.push_back(world.air().shutter_law(v));
   }
 
+  // The functions that lane_events.h calls.
   const ChainMechanism<N>& mechanism(int) const noexcept { return mechanism_; }
   const auto& senses(int) const noexcept { return senses_; }
   signals::Tick lag(int, signals::Channel channel) const noexcept { return lag_[channel.index]; }
@@ -37,6 +38,7 @@ class FlatMachine {
   void end(int) noexcept { ended_ = true; }
   void moves(int) const noexcept {}
 
+  // Valves and supply; `pressure`: that of the valve's muscle at the node [Pa].
   const air::AirValves<chain_muscles>& valves(int) const noexcept { return valves_; }
   int valve_count(int) const noexcept { return static_cast<int>(laws_.size()); }
   void command(int, const signals::Edge& edge, double t, double pressure) noexcept {
@@ -93,6 +95,7 @@ class FlatChain : public LaneEvents<N, 1, FlatMachine<N>> {
   explicit FlatChain(const Setup& setup)
       : FlatChain(*std::make_unique<const ChainWorld<N>>(setup), setup) {}
 
+  // The functions of Port and World.
   signals::Status start(const signals::Scan& scan) noexcept { return this->machines_.start(scan); }
   signals::Status drive(const signals::Edge& edge) noexcept { return Events::drive(0, edge); }
   signals::Reading read(signals::Channel channel, signals::Tick now) noexcept {

@@ -71,6 +71,7 @@ class LaneEvents {
   // lane.
   class LaneView;
 
+  // Return the next node of machine k [s], and a mask with its lane.
   double next_node(int k) const noexcept;
   Mask only(int k) const noexcept;
   void update_step_preview(int k) noexcept;
@@ -138,20 +139,24 @@ class LaneEvents<N, W, Machines>::LaneView {
     struct Air {
       std::array<double, chain_muscles> mass, in, out;
     };
-    struct {
+    struct Moving {
       GeneralizedState<N> motion;
       Air air;
-    } state;
-    struct {
-      struct {
-        std::array<double, chain_muscles> tension, pressure;
-      } air;
-      struct {
-        std::array<double, chain_muscles> length;
-        double travel = 0;
-      } ends;
+    };
+    struct Pull {
+      std::array<double, chain_muscles> tension, pressure;
+    };
+    struct Ends {
+      std::array<double, chain_muscles> length;
+      double travel = 0;
+    };
+    struct Evaluation {
+      Pull air;
+      Ends ends;
       typename ChainBody<N>::Arms arms;
-    } evaluation;
+    };
+    Moving state;
+    Evaluation evaluation;
   };
 
   // Returns the tension and pressure of one muscle; those of the others are not set.

@@ -225,11 +225,6 @@ int cuModuleGetFunction(void** function, void* module, const char* name) {
   return 0;
 }
 
-int cuFuncGetAttribute(int* value, int attribute, void*) {
-  *value = attribute == 4 ? 128 : attribute == 3 ? 9800 : 0;
-  return 0;
-}
-
 int cuMemGetInfo_v2(std::size_t* free, std::size_t* total) {
   const std::lock_guard lock(mutex);
   if (!here()) return invalid_context;

@@ -210,7 +210,7 @@ concept Is = std::same_as<std::remove_const_t<M>, X>;
 // Counts the members of an aggregate, so that a list of its fields detects an added one:
 // static_assert(members<Gains>() == 3).
 
-// Placeholder for a member: it converts to any type.
+// Takes the place of a member: it converts to any type.
 struct AnyMember {
   template <class T>
   operator T() const;  // never defined, used in a requires expression only

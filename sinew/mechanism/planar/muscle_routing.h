@@ -181,6 +181,7 @@ struct RollerModel {
   double own_mass = 0, gravity = 0;  // trolley with its payload [kg], [m/s^2]
 
   RollerModel() = default;
+  // Takes the rollers of a robot.
   explicit RollerModel(const robot::Robot& robot)
       : rollers(robot.rollers),
         own_mass(robot::trolley_own_mass(robot) + robot.trolley.payload),

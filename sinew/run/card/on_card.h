@@ -19,6 +19,7 @@ class Card {
   // Takes one of card::list().
   explicit Card(card::Properties properties) : properties_(std::move(properties)) {}
 
+  // Returns its properties, as the driver gives them.
   const card::Properties& properties() const { return properties_; }
   // Returns the number of runs that keep the card busy.
   std::size_t runs() const;

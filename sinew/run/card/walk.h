@@ -42,6 +42,7 @@ inline constexpr std::size_t words_of = sizeof(T) / sizeof(std::uint64_t);
 struct PackedEdge {
   static constexpr std::uint32_t tick_bits = 25, latest = (1u << tick_bits) - 1;
 
+  // Return the bits of an edge before the tick `latest`, and the edge of these bits.
   static constexpr std::uint32_t pack(const signals::Edge& edge) {
     return static_cast<std::uint32_t>(edge.at) |
            static_cast<std::uint32_t>(edge.valve.index) << 25 |
@@ -76,7 +77,7 @@ struct CommandRows {
 
 // Inputs of all runs of a launch. The pointers are those of the memory where it runs.
 struct Launch {
-  const control::Command* commands = nullptr;  // of all plans
+  const control::Command* commands = nullptr;  // those of all plans, one after the other
   Kept kept;
 };
 
@@ -84,6 +85,7 @@ struct Launch {
 struct SingleBoard {
   Board board;
 
+  // The functions of Boards that the loop calls.
   signals::Scan scan() const noexcept { return {period, board.conversions()}; }
   std::span<Board> each() noexcept { return {&board, 1}; }
   const control::ControllerState& state() const noexcept { return board.supervisor.state(); }
@@ -103,6 +105,7 @@ struct CommandTable {
   signals::Tick period;
   bool has_finished = false;
 
+  // The functions of a gait controller that the loop calls.
   const control::Command& update(const control::ControllerState&, signals::Tick t) noexcept {
     has_finished = t >= rows.vents_at;
     const std::int64_t k = t / period;
@@ -127,6 +130,7 @@ class Walk {
         next_sample_(timing.first_sample),
         sample_period_(timing.sample_period) {}
 
+  // Takes the rows of its commands, which begin at this number among those of the launch.
   void set_plan(std::int64_t first, const CommandRows& rows) noexcept {
     plan_ = first;
     table_ = {{nullptr, rows.count, rows.vents_at}, low_.period};

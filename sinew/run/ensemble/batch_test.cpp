@@ -41,8 +41,8 @@ void expect_same(const Outcome& a, const Outcome& b) {
   EXPECT_EQ(a.supervised.rejected, b.supervised.rejected);
 }
 
-// Compares walks of these seeds, which record these topics (nullptr: all), with runs alone; returns
-// how many a batch has held.
+// Compares walks of these seeds, which record these topics (nullptr: all), with runs alone. Returns
+// the number of those that a batch has held.
 int compare_walks(const test::VariedWalks& walks, int first, int last,
                   const signals::TopicNames* topics) {
   std::vector<std::unique_ptr<Ensemble::Member>> members;

@@ -8,9 +8,9 @@
 
 namespace sinew::run {
 
-// Runs all in batches of at most `most` runs (run/card/batch.h), which `launcher` computes. Runs
-// that do not suit a batch are made in lanes on threads. If a launch fails, throws
-// std::runtime_error, or if it `continues` runs the others on the processor.
+// Runs all in batches of at most `most` runs (run/card/batch.h), which `launcher` computes. Other
+// runs are made in lanes on threads. If a launch fails, throws std::runtime_error, or if it
+// `continues` runs the others on the processor.
 struct InBatches {
   Launcher launcher;
   std::size_t most = 1;

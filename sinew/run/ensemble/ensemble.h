@@ -69,8 +69,8 @@ class Ensemble {
   // the run has no such figure) to the row of `figures`. Returns the status of each run: "ok", or
   // why it has no figures; "not run" after a stop. The results do not depend on threads, lanes,
   // device and other rows. Several threads may call it. Throws std::invalid_argument if the sizes
-  // do not match, std::runtime_error for a card that cannot be used, and config::Error for a figure
-  // that is probably misspelt, which the first runs show.
+  // do not match, std::runtime_error for a card that cannot be used, and config::Error for a
+  // probably misspelt figure, which the first runs find.
   std::vector<std::string> run(std::span<const double> values, std::span<double> figures,
                                const Options& options) const;
   std::vector<std::string> run(std::span<const double> values, std::span<double> figures) const {

@@ -112,7 +112,7 @@ TEST_F(Batches, AFailureEndsTheRunsOfARequestedCard) {
 TEST_F(Batches, WrongBitsEndTheRuns) {
   const auto launch = [](const Batched& batched) {
     launch_on_processor(batched);
-    batched.sample[0] ^= 1;  // of the first run
+    batched.sample[0] ^= 1;  // the first run has another value
   };
   for (const bool continues : {false, true})
     EXPECT_THROW((void)figures(batches(launch, continues)), WrongBits);

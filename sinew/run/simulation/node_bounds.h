@@ -45,7 +45,7 @@ class NodeBounds {
     return longest;
   }
 
-  signals::Tick start_ = 0;  // of the present period
+  signals::Tick start_ = 0;  // start of the present period
 };
 
 }  // namespace sinew::run
