@@ -67,8 +67,8 @@ signals::Status LegLane::stop(signals::Tick) noexcept {
   return batch_->visit([&](auto& legs) { return legs.stop(k_); });
 }
 
-Truth LegLane::truth(double t) noexcept {
-  return batch_->visit([&](auto& legs) { return legs.truth(k_, t); });
+void LegLane::truth(double t, Truth& out) noexcept {
+  batch_->visit([&](auto& legs) { legs.truth(k_, t, out); });
 }
 
 void LegLane::advance(double t) noexcept {

@@ -86,7 +86,7 @@ class LegLane final : public signals::Port {
   signals::Status stop(signals::Tick now) noexcept override;
 
   // The functions of World.
-  Truth truth(double t) noexcept;
+  void truth(double t, Truth& out) noexcept;
   void advance(double t) noexcept;
   const air::Failure& failure() const noexcept;
   std::int64_t nodes() const noexcept;

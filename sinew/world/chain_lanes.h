@@ -144,9 +144,9 @@ class ChainLanes : public LaneEvents<N, W, LaneWorlds<N, W>> {
     update_lane(k);
     return Events::read(k, channel, now);
   }
-  Truth truth(int k, double t) noexcept {
+  void truth(int k, double t, Truth& out) noexcept {
     update_lane(k);
-    return Events::truth(k, t);
+    Events::truth(k, t, out);
   }
 
   // Returns machine k as a World, updated from its lane.

@@ -102,7 +102,7 @@ class FlatChain : public LaneEvents<N, 1, FlatMachine<N>> {
     return Events::read(0, channel, now);
   }
   signals::Status stop(signals::Tick) noexcept { return Events::stop(0); }
-  Truth truth(double t) noexcept { return Events::truth(0, t); }
+  void truth(double t, Truth& out) noexcept { Events::truth(0, t, out); }
   void advance(double t) noexcept { Events::advance(0, t); }
   const air::Failure& failure() const noexcept { return Events::failure(0); }
   std::int64_t nodes() const noexcept { return Events::nodes(0); }

@@ -47,7 +47,7 @@ class LaneEvents {
   signals::Status drive(int k, const signals::Edge& edge) noexcept;
   signals::Reading read(int k, signals::Channel channel, signals::Tick now) noexcept;
   signals::Status stop(int k) noexcept;
-  Truth truth(int k, double t) noexcept;
+  void truth(int k, double t, Truth& out) noexcept;
   void advance(int k, double t) noexcept;
   const air::Failure& failure(int k) const noexcept {
     return failure_[static_cast<std::size_t>(k)];
@@ -384,11 +384,11 @@ signals::Status LaneEvents<N, W, Machines>::stop(int k) noexcept {
 }
 
 template <int N, int W, class Machines>
-Truth LaneEvents<N, W, Machines>::truth(int k, double t) noexcept {
+void LaneEvents<N, W, Machines>::truth(int k, double t, Truth& out) noexcept {
   advance(k, t);
   LaneView view(*this, k);
   const double at = times_[static_cast<std::size_t>(k)].time;
-  return machines_.senses(k).truth(view, t < at ? at : t);
+  machines_.senses(k).truth(view, t < at ? at : t, out);
 }
 
 template <int N, int W, class Machines>

@@ -39,10 +39,10 @@ signals::Port& Machine::port() noexcept {
 
 void Machine::truth(double t, Truths& out) noexcept {
   const auto put = [&](auto& world) {
-    if constexpr (std::is_same_v<decltype(world.truth(t)), StandTruth>)
-      out.stand = world.truth(t);
+    if constexpr (std::is_same_v<decltype(world), Stand&>)
+      world.truth(t, out.stand);
     else
-      out.robot = world.truth(t);
+      world.truth(t, out.robot);
   };
   std::visit(put, world_);
 }

@@ -36,15 +36,15 @@ struct DrivenTruth {
 // Senses of a machine without transducers.
 struct DrivenSenses {
   using Truth = DrivenTruth;
-  // The sensor functions have no channels; truth() returns the true values at t [s].
+  // The sensor functions have no channels; truth() writes the true values at t [s].
   explicit DrivenSenses(const DrivenSetup&) {}
   std::size_t channels() const noexcept { return 0; }
   double quantity(const auto&, std::size_t, double) const noexcept { return 0; }
   std::uint16_t counts(std::size_t, double, signals::Tick) const noexcept { return 0; }
-  Truth truth(auto& world, double t) const noexcept {
+  void truth(auto& world, double t, Truth& out) const noexcept {
     const auto p = world.preview(t);
-    return {p.evaluation.ends.length[0], p.evaluation.air.tension[0], p.evaluation.air.pressure[0],
-            world.air().account(p.state.air, 0)};
+    out = {p.evaluation.ends.length[0], p.evaluation.air.tension[0], p.evaluation.air.pressure[0],
+           world.air().account(p.state.air, 0)};
   }
 };
 

@@ -407,6 +407,7 @@ void BodyMechanism<N, D, M>::write_truth(const Motion& m, const Acceleration& a,
   }
   for (std::size_t f = 0; f < contacts_.feet(); ++f) {
     const typename FrictionContacts<N, D>::Path& path = contacts_.leg(f);
+    out.foot[f] = {};
     for (std::size_t k = path.first; k < path.count; ++k) {
       out.foot[f].x += path.reach[k] * body.cos(path.link[k]);
       out.foot[f].y += path.reach[k] * body.sin(path.link[k]);

@@ -73,14 +73,14 @@ class PlanarSensesOf {
     return sensor.counts(value, added_noise);
   }
 
-  // Returns the true values at t.
+  // Writes the true values at t; parts that the machine does not have stay as they are.
   template <class World>
-  Truth truth(World& world, double t) const noexcept {
+  void truth(World& world, double t, Truth& out) const noexcept {
     const auto& mechanism = world.mechanism();
     const auto& air = world.air();
     const auto p = world.preview(t);
 
-    Truth out;
+    out.torque = {};
     for (int i = 0; i < mechanism.muscles(); ++i) {
       const auto k = static_cast<std::size_t>(i);
       const auto account = air.account(p.state.air, i);
@@ -107,7 +107,6 @@ class PlanarSensesOf {
     }
     const auto& g = world.step_preview();
     mechanism.write_truth(p.state.motion, g.acceleration, g.held, world.load(), out);
-    return out;
   }
 
  private:

@@ -29,7 +29,8 @@ class StandSenses {
   double quantity(World& world, std::size_t index, double t) const noexcept {
     using Of = Transducer::Of;
     world.advance(t);
-    const StandTruth now = truth(world, t);
+    StandTruth now;
+    truth(world, t, now);
     switch (transducers_[index].of) {
       case Of::length:
         return now.length;
@@ -51,9 +52,9 @@ class StandSenses {
     return robot::counts(t, value, added_noise);
   }
 
-  // Returns the true values at t.
+  // Writes the true values at t.
   template <class World>
-  StandTruth truth(World& world, double t) const noexcept {
+  void truth(World& world, double t, StandTruth& out) const noexcept {
     const auto& mechanism = world.mechanism();
     const auto& air = world.air();
     const auto p = world.preview(t);
@@ -62,23 +63,23 @@ class StandSenses {
     const double dry = mechanism.dry(load, g.held);
     const auto account = air.element(p.state.air);
     const auto supply = air.supply_state(p.state.air, p.evaluation.air);
-    return {.length = p.state.motion.length,
-            .velocity = p.state.motion.velocity,
-            .acceleration = g.acceleration,
-            .force = load.force + dry,
-            .friction = dry,
-            .sticks = mechanism.rests(g.held),
-            .load = mechanism.driven() ? 0.0 : load.mass,
-            .pressure = air.pressure(p.evaluation.air),
-            .air = account.mass,
-            .all_air = air.total_mass(p.state.air, p.evaluation.ends.travel),
-            .air_in = account.in,
-            .air_out = account.out,
-            .air_leaked = account.leak,
-            .inlet = air.open_share(0, t, world.state().valves),
-            .exhaust = air.open_share(1, t, world.state().valves),
-            .supply_pressure = supply.line,
-            .tank_pressure = supply.tank};
+    out = {.length = p.state.motion.length,
+           .velocity = p.state.motion.velocity,
+           .acceleration = g.acceleration,
+           .force = load.force + dry,
+           .friction = dry,
+           .sticks = mechanism.rests(g.held),
+           .load = mechanism.driven() ? 0.0 : load.mass,
+           .pressure = air.pressure(p.evaluation.air),
+           .air = account.mass,
+           .all_air = air.total_mass(p.state.air, p.evaluation.ends.travel),
+           .air_in = account.in,
+           .air_out = account.out,
+           .air_leaked = account.leak,
+           .inlet = air.open_share(0, t, world.state().valves),
+           .exhaust = air.open_share(1, t, world.state().valves),
+           .supply_pressure = supply.line,
+           .tank_pressure = supply.tank};
   }
 
  private:

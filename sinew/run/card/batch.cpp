@@ -26,7 +26,8 @@ namespace {
 
 // Returns a recorder whose true values are given, for the topics of a run.
 Recorder recorder_of(const BatchedRun& run, const Controllers& controllers, Tick last) {
-  return {*run.experiment, controllers, Recorder::Truths::given, last, run.topics};
+  const std::vector<Column> all = columns(*run.experiment);
+  return {*run.experiment, all, controllers, Recorder::Truths::given, last, run.topics};
 }
 
 // Returns whether a walk ended as planned.

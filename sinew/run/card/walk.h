@@ -216,7 +216,7 @@ struct Walk::Watch {
                           after_controller = after_truth + words_of<control::ControllerState>;
     plant::Truth truth;
     if (kept.words > 0 && kept.wanted[0] < after_truth)
-      truth = walk.leg_.truth(static_cast<double>(t) * signals::tick_seconds);
+      walk.leg_.truth(static_cast<double>(t) * signals::tick_seconds, truth);
     for (std::int32_t k = 0; k < kept.words; ++k, to += kept.runs) {
       const std::size_t w = kept.wanted[k];
       if (w < after_truth)

@@ -226,10 +226,13 @@ std::vector<Topic> topics_of_sweep() {
 
 }  // namespace
 
-std::vector<Topic> topics(const experiment::Experiment& e) {
+std::vector<Topic> topics(const experiment::Experiment& e) { return topics(e, columns(e)); }
+
+std::vector<Topic> topics(const experiment::Experiment& e, std::span<const Column> columns) {
   if (e.stand && e.stand->sweep.step > 0) return topics_of_sweep();
   std::vector<Topic> out;
-  for (Column& c : columns(e)) out.push_back(std::move(c.topic));
+  out.reserve(columns.size() + 2 * e.robot.muscles.size() + 4);
+  for (const Column& c : columns) out.push_back(c.topic);
   const auto valve = [&](const std::string& valves, const char* which) {
     out.push_back(
         {valves + "/" + which + "/open", "electrical edges: 1 opens, 0 shuts", {{"value", "1"}}});

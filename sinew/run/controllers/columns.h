@@ -51,5 +51,8 @@ std::vector<Column> columns(const experiment::Experiment& experiment);
 // (0 inlet | 1 exhaust), then the four of a cylinder. For a sweep of duties, returns the settled
 // values of each stand instead.
 std::vector<signals::Topic> topics(const experiment::Experiment& experiment);
+// Returns the same, given the experiment's columns.
+std::vector<signals::Topic> topics(const experiment::Experiment& experiment,
+                                   std::span<const Column> columns);
 
 }  // namespace sinew::run

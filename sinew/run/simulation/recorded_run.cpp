@@ -9,9 +9,8 @@ void Watch::sample(Tick t) noexcept {
   // A machine that has failed is not recorded.
   if (machine && t >= sample_at()) machine->advance(static_cast<double>(t) * signals::tick_seconds);
   if (failed()) return;
-  plant::Truths truths;
   for (int i = 0; i < extra_readers; ++i)
-    if (machine) machine->truth(static_cast<double>(t) * signals::tick_seconds, truths);
+    if (machine) (void)machine->truth(static_cast<double>(t) * signals::tick_seconds);
   if (recorder) recorder->sample(t);
 }
 
@@ -21,8 +20,9 @@ RecordedRun::RecordedRun(Simulation& simulation, const RunOptions& options)
              options.stop},
       start_(std::chrono::steady_clock::now()) {
   if (!options.recorded) return;
-  watch_.recorder = &recorder_.emplace(simulation.experiment(), simulation.controllers(),
-                                       simulation.machine(), simulation.last(), options.topics);
+  watch_.recorder =
+      &recorder_.emplace(simulation.experiment(), simulation.columns(), simulation.controllers(),
+                         simulation.machine(), simulation.last(), options.topics);
   if (options.tap.push) recorder_->tap(options.tap, options.tapped);
   recorder_->progress(options.progress);
 }

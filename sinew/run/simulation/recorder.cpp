@@ -24,8 +24,9 @@ Samples room(const signals::PageFile& pages, std::size_t most) {
 
 }  // namespace
 
-Recorder::Recorder(const experiment::Experiment& e, const Controllers& controllers, Truths truths,
-                   Tick end, const signals::TopicNames* wanted)
+Recorder::Recorder(const experiment::Experiment& e, std::span<const Column> columns,
+                   const Controllers& controllers, Truths truths, Tick end,
+                   const signals::TopicNames* wanted)
     : controllers_(controllers) {
   period_ = std::max<Tick>(1, std::llround(e.log.period / signals::tick_seconds));
   next_ = controllers.first_sample(period_);
@@ -34,14 +35,14 @@ Recorder::Recorder(const experiment::Experiment& e, const Controllers& controlle
   const auto is_wanted = [&](const signals::Topic& topic) {
     return !wanted || wanted->contains(topic.name);
   };
-  topics_ = topics(e);
+  topics_ = topics(e, columns);
   std::size_t width = 0;  // numbers in a row
-  for (Column& c : run::columns(e)) {
+  for (const Column& c : columns) {
     const std::size_t topic = first_edge_++;
     if (!is_wanted(c.topic) || (truths == Truths::none && c.is_simulated_only())) continue;
     width += c.topic.fields.size();
     needs_truths_ = needs_truths_ || c.is_simulated_only();
-    columns_.push_back({std::move(c), topic});
+    columns_.push_back({c, topic});
   }
 
   // Reserve storage for the largest number of samples and edges.

@@ -35,18 +35,21 @@ class Recorder {
   // Origin of the true values.
   enum class Truths { none, of_machine, given };
 
-  // Records the controllers and the machine, which must outlive it, up to the tick `end`. `machine`
-  // is nullptr for a body that is not simulated. Of the topics, only those of `wanted` are recorded
-  // if it is given; the table's series of the others are empty.
-  Recorder(const experiment::Experiment& experiment, const Controllers& controllers,
-           plant::Machine* machine, signals::Tick end, const signals::TopicNames* wanted = nullptr)
-      : Recorder(experiment, controllers, machine ? Truths::of_machine : Truths::none, end,
+  // Records the controllers and the machine, which must outlive it, up to the tick `end`, in the
+  // columns of the experiment (controllers/columns.h). `machine` is nullptr for a body that is not
+  // simulated. Of the topics, only those of `wanted` are recorded if it is given; the table's
+  // series of the others are empty.
+  Recorder(const experiment::Experiment& experiment, std::span<const Column> columns,
+           const Controllers& controllers, plant::Machine* machine, signals::Tick end,
+           const signals::TopicNames* wanted = nullptr)
+      : Recorder(experiment, columns, controllers, machine ? Truths::of_machine : Truths::none, end,
                  wanted) {
     machine_ = machine;
   }
   // Records samples whose true values are given.
-  Recorder(const experiment::Experiment& experiment, const Controllers& controllers, Truths truths,
-           signals::Tick end, const signals::TopicNames* wanted);
+  Recorder(const experiment::Experiment& experiment, std::span<const Column> columns,
+           const Controllers& controllers, Truths truths, signals::Tick end,
+           const signals::TopicNames* wanted);
 
   // Also passes each sample to a receiver, with the receiver's topic for each series.
   void tap(Tap t, std::vector<std::uint16_t> topic_of_series) {

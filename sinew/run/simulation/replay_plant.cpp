@@ -80,7 +80,7 @@ PlantReplay replay_plant(const experiment::Experiment& e, const signals::Table& 
       e.faults.empty() ? static_cast<signals::Port&>(driven) : faulty.emplace(e, driven);
   Controllers controllers(e, nullptr);
   const Tick end = std::min(experiment::last_tick(e), commands.end);
-  Recorder recorder(e, controllers, &machine, end);
+  Recorder recorder(e, columns(e), controllers, &machine, end);
 
   PlantReplay out{.rebuilt = commands.rebuilt};
   DrivenWatch watch{{&recorder, &machine}, &driven};

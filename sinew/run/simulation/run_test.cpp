@@ -148,7 +148,7 @@ TEST(Run, TheLastRowStandsAfterTheSequence) {
 signals::Table expect_no_heap(const experiment::Experiment& e, signals::Tick end,
                               Steering* steering = nullptr) {
   Simulation simulation(e, steering);
-  Recorder recorder(e, simulation.controllers(), simulation.machine(), end);
+  Recorder recorder(e, simulation.columns(), simulation.controllers(), simulation.machine(), end);
   SimulatedClock clock;
 
   allocations = 0;
@@ -174,7 +174,7 @@ TEST(Run, TakesNoMemoryForItsDuration) {
     const auto end = std::llround(3600 * hours / signals::tick_seconds);
     test::bytes = 0;
     counting = true;
-    const Recorder recorder(e, controllers, nullptr, end);
+    const Recorder recorder(e, columns(e), controllers, nullptr, end);
     counting = false;
     return static_cast<double>(test::bytes);
   };

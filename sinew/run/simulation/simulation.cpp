@@ -105,7 +105,7 @@ void Simulation::advance_by(double seconds) noexcept {
 // --- reading ---
 
 void Simulation::list_channels() {
-  columns_ = columns(experiment_);
+  columns_ = run::columns(experiment_);
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     if (!machine_ && columns_[c].is_simulated_only()) continue;
     const signals::Topic& topic = columns_[c].topic;

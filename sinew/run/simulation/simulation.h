@@ -104,6 +104,8 @@ class Simulation {
     Column::Given given = Column::Given::always;  // when it has a value; NaN otherwise
   };
   const std::vector<Channel>& channels() const noexcept { return channels_; }
+  // Returns the columns of its experiment.
+  std::span<const Column> columns() const noexcept { return columns_; }
   // Return the present value of a channel, in its unit; by its number in channels(), or by its
   // name. Throw std::invalid_argument for an unknown channel.
   double read(std::size_t channel) noexcept;

@@ -89,8 +89,14 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   signals::Status stop(signals::Tick now) noexcept override;
 
   // Returns the true values at t [s]. For a t before that of an earlier call the last node is used.
-  // Commits the nodes that are due and extrapolates the rest.
-  Truth truth(double t) noexcept;
+  // Commits the nodes that are due and extrapolates the rest. The second function writes them;
+  // parts that the machine does not have stay as they are.
+  Truth truth(double t) noexcept {
+    Truth out;
+    truth(t, out);
+    return out;
+  }
+  void truth(double t, Truth& out) noexcept;
 
   // Commits every node up to t. If the mechanism cuts its steps, visit(from, before, to, after) is
   // called with the times [s] and the motions at both ends of each smooth piece.
@@ -491,9 +497,9 @@ signals::Status World<M, A>::stop(signals::Tick) noexcept {
 }
 
 template <IsMechanism M, IsAirOf<M> A>
-auto World<M, A>::truth(double t) noexcept -> Truth {
+void World<M, A>::truth(double t, Truth& out) noexcept {
   advance(t);
-  return senses_.truth(*this, std::max(t, state_.times.time));
+  senses_.truth(*this, std::max(t, state_.times.time), out);
 }
 
 // Begins a smooth part at t: writes the prescribed values to the state, and determines the
