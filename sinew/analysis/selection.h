@@ -31,7 +31,7 @@ class Selection {
 
   // Returns the figures of these keys, and maybe of others, for a run that recorded at least the
   // topics above; a topic that was not recorded has an empty series. Returns nothing if this run's
-  // figures, or the question whether a muscle took air, depend on other topics.
+  // figures depend on other topics.
   std::optional<Summary> figures(const signals::Table& table, const Machine& machine) const;
 
  private:

@@ -71,6 +71,10 @@ void LegLane::truth(double t, Truth& out) noexcept {
   batch_->visit([&](auto& legs) { legs.truth(k_, t, out); });
 }
 
+void LegLane::true_motion(double t, Truth& out) noexcept {
+  batch_->visit([&](auto& legs) { legs.true_motion(k_, t, out); });
+}
+
 void LegLane::advance(double t) noexcept {
   batch_->visit([&](auto& legs) { legs.advance(k_, t); });
 }

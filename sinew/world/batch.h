@@ -87,11 +87,13 @@ class LegLane final : public signals::Port {
 
   // The functions of World.
   void truth(double t, Truth& out) noexcept;
+  void true_motion(double t, Truth& out) noexcept;  // as in machine.h
   void advance(double t) noexcept;
   const air::Failure& failure() const noexcept;
   std::int64_t nodes() const noexcept;
   double time() const noexcept { return world().time(); }
   double air_mass() const noexcept { return world().air_mass(); }
+  bool took_air() const noexcept { return world().took_air(); }
   double shortest_step() const noexcept { return world().shortest_step(); }
   const State& state() const noexcept { return world().state(); }
   void restore(const State& state) noexcept;

@@ -148,6 +148,10 @@ class ChainLanes : public LaneEvents<N, W, LaneWorlds<N, W>> {
     update_lane(k);
     Events::truth(k, t, out);
   }
+  void true_motion(int k, double t, Truth& out) noexcept {
+    update_lane(k);
+    Events::true_motion(k, t, out);
+  }
 
   // Returns machine k as a World, updated from its lane.
   World& world(int k) noexcept;

@@ -103,6 +103,8 @@ class FlatChain : public LaneEvents<N, 1, FlatMachine<N>> {
   }
   signals::Status stop(signals::Tick) noexcept { return Events::stop(0); }
   void truth(double t, Truth& out) noexcept { Events::truth(0, t, out); }
+  void true_motion(double t, Truth& out) noexcept { Events::true_motion(0, t, out); }
+  bool took_air() const noexcept { return Events::took_air(0); }
   void advance(double t) noexcept { Events::advance(0, t); }
   const air::Failure& failure() const noexcept { return Events::failure(0); }
   std::int64_t nodes() const noexcept { return Events::nodes(0); }

@@ -48,6 +48,9 @@ class LaneEvents {
   signals::Reading read(int k, signals::Channel channel, signals::Tick now) noexcept;
   signals::Status stop(int k) noexcept;
   void truth(int k, double t, Truth& out) noexcept;
+  // Writes the true values that follow from the motion alone (machine.h).
+  void true_motion(int k, double t, Truth& out) noexcept;
+  bool took_air(int k) const noexcept;
   void advance(int k, double t) noexcept;
   const air::Failure& failure(int k) const noexcept {
     return failure_[static_cast<std::size_t>(k)];
@@ -171,16 +174,20 @@ class LaneEvents<N, W, Machines>::LaneView {
     }
     return p;
   }
+  // Returns the motion of the preview.
+  GeneralizedState<N> motion_at(double t) noexcept {
+    return is_past(t) ? units::lane_of<GeneralizedState<N>>(b_.state_.now.motion, k_)
+                      : preview_motion(t);
+  }
   // Returns the whole preview.
   Preview preview(double t) noexcept {
     Preview p;
     b_.update_step_preview(k_);
     const int muscles = b_.nodes_of_all_.air().muscles();
+    p.state.motion = motion_at(t);
     if (is_past(t)) {
-      p.state.motion = units::lane_of<GeneralizedState<N>>(b_.state_.now.motion, k_);
       for (int i = 0; i < muscles; ++i) write_node(i, p);
     } else {
-      p.state.motion = preview_motion(t);
       const typename ChainBody<N>::Ends ends = ends_of(t, p.state.motion);
       for (int i = 0; i < muscles; ++i) write_muscle(t, i, ends, p);
     }
@@ -389,6 +396,20 @@ void LaneEvents<N, W, Machines>::truth(int k, double t, Truth& out) noexcept {
   LaneView view(*this, k);
   const double at = times_[static_cast<std::size_t>(k)].time;
   machines_.senses(k).truth(view, t < at ? at : t, out);
+}
+
+template <int N, int W, class Machines>
+void LaneEvents<N, W, Machines>::true_motion(int k, double t, Truth& out) noexcept {
+  advance(k, t);
+  LaneView view(*this, k);
+  machines_.mechanism(k).write_motion(view.motion_at(t), out);
+}
+
+template <int N, int W, class Machines>
+bool LaneEvents<N, W, Machines>::took_air(int k) const noexcept {
+  bool any = false;
+  for (int i = 0; i < nodes_of_all_.air().muscles(); ++i) any = any || state_.now.air.in[i][k] > 0;
+  return any;
 }
 
 template <int N, int W, class Machines>

@@ -53,12 +53,23 @@ Truth Machine::truth(double t) noexcept {
   return out.robot;
 }
 
+void Machine::true_motion(double t, Truths& out) noexcept {
+  if (auto* const leg = std::get_if<LegLane>(&world_))
+    leg->true_motion(t, out.robot);
+  else
+    truth(t, out);
+}
+
 void Machine::advance(double t) noexcept {
   std::visit([&](auto& world) { world.advance(t); }, world_);
 }
 
 double Machine::time() const noexcept {
   return std::visit([](const auto& world) { return world.time(); }, world_);
+}
+
+bool Machine::took_air() const noexcept {
+  return std::visit([](const auto& world) { return world.took_air(); }, world_);
 }
 
 double Machine::air_mass() const noexcept {

@@ -53,10 +53,14 @@ class Machine {
   // The functions of World, for a robot or a stand; the second only for a robot.
   void truth(double t, Truths& out) noexcept;
   Truth truth(double t) noexcept;
+  // Writes at least those true values that follow from the motion alone: positions and rates of the
+  // trolley and the joints. For a plain leg in a lane this is cheaper than truth().
+  void true_motion(double t, Truths& out) noexcept;
   void advance(double t) noexcept;
   double time() const noexcept;
   std::int64_t nodes() const noexcept;
   double air_mass() const noexcept;
+  bool took_air() const noexcept;
   double shortest_step() const noexcept;
   const air::Failure& failure() const noexcept;
 

@@ -566,16 +566,21 @@ class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N
     torque[static_cast<std::size_t>(joint(muscle))] += routes_.moment_arm[muscle] * tension;
   }
 
-  // Fills in the body's part of the true values at a motion. The muscles' torques must be set
-  // already.
-  void write_truth(const Motion& pose, const Acceleration& a, const Forces& held, const Load&,
-                   Truth& out) const noexcept {
+  // Fills in the true values that follow from the motion alone.
+  void write_motion(const Motion& pose, Truth& out) const noexcept {
     out.x = pose.x;
     out.x_rate = pose.x_rate;
     for (std::size_t j = 0; j < N; ++j) {
       out.angle[j] = joint_angle(pose, j);
       out.rate[j] = joint_rate(pose, j);
     }
+  }
+
+  // Fills in the body's part of the true values at a motion. The muscles' torques must be set
+  // already.
+  void write_truth(const Motion& pose, const Acceleration& a, const Forces& held, const Load&,
+                   Truth& out) const noexcept {
+    write_motion(pose, out);
     Load at{};
     const Chain<N> chain(model_.chain, pose);
     this->ground(chain, pose, at);

@@ -119,6 +119,7 @@ Outcome Prepared::outcome(const Walk& ended, const Batched& batched, std::size_t
   add_end(*run_.experiment, controllers, &recorder, last_, out);
   out.unreachable_periods = plan_->unreachable_periods();
   out.nodes = ended.leg().nodes();
+  out.took_air = ended.leg().took_air();
   return out;
 }
 

@@ -212,10 +212,13 @@ struct Walk::Watch {
 
  private:
   void write(signals::Tick t, std::uint64_t* to) const noexcept {
-    constexpr std::size_t after_truth = words_of<plant::Truth>,
+    constexpr std::size_t after_motion = offsetof(plant::Truth, torque) / sizeof(std::uint64_t),
                           after_controller = after_truth + words_of<control::ControllerState>;
     plant::Truth truth;
-    if (kept.words > 0 && kept.wanted[0] < after_truth)
+    const std::int32_t of_truth = words_of_truth();
+    if (of_truth > 0 && kept.wanted[of_truth - 1] < after_motion)
+      walk.leg_.true_motion(static_cast<double>(t) * signals::tick_seconds, truth);
+    else if (of_truth > 0)
       walk.leg_.truth(static_cast<double>(t) * signals::tick_seconds, truth);
     for (std::int32_t k = 0; k < kept.words; ++k, to += kept.runs) {
       const std::size_t w = kept.wanted[k];
@@ -226,6 +229,14 @@ struct Walk::Watch {
       else
         copy_word(walk.low_.board.supervisor.supervised(), w - after_controller, to);
     }
+  }
+  static constexpr std::size_t after_truth = words_of<plant::Truth>;
+
+  // Returns how many of the wanted words, which are ascending, are true values.
+  std::int32_t words_of_truth() const noexcept {
+    std::int32_t n = 0;
+    while (n < kept.words && kept.wanted[n] < after_truth) ++n;
+    return n;
   }
   template <class T>
   static void copy_word(const T& from, std::size_t word, std::uint64_t* to) noexcept {

@@ -39,6 +39,7 @@ struct Column {
 
   // When it has a value; NaN otherwise. `never`: never under this experiment's plan.
   enum class Given { always, at_times, never } given = Given::always;
+  bool is_of_motion = false;  // a true value that follows from the motion alone
 
   // Returns whether only a simulation can provide it.
   bool is_simulated_only() const { return topic.name.starts_with("/true/"); }

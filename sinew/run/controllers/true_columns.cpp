@@ -1,6 +1,7 @@
 // run/controllers/true_columns.cpp - columns that only a simulation can provide.
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "sinew/experiment/faults.h"
 #include "sinew/run/controllers/column_list.h"
@@ -15,12 +16,15 @@ void truth(Columns& out, std::string name, std::string unit, std::string descrip
            double T::*value) {
   out.scalar(std::move(name), std::move(unit), std::move(description),
              [value](const Snapshot& m) { return m.true_of->robot.*value; });
+  out.list.back().is_of_motion = value == &T::x || value == &T::x_rate;
 }
 template <class Array>
 void truth(Columns& out, std::string name, std::string unit, std::string description,
            Array T::*values, std::size_t i) {
   out.scalar(std::move(name), std::move(unit), std::move(description),
              [values, i](const Snapshot& m) { return (m.true_of->robot.*values)[i]; });
+  if constexpr (std::is_same_v<Array, decltype(T::angle)>)
+    out.list.back().is_of_motion = values == &T::angle || values == &T::rate;
 }
 
 void true_joint_columns(const robot::Robot& robot, Columns& out) {

@@ -276,11 +276,11 @@ std::string Ensemble::plan_of(const Member& member) const {
 }
 
 // Returns the figures of a run: the wanted ones from the topics that it recorded, or all of them.
-// If these topics are too few, it is run again, and later runs record more.
+// If these topics are too few, or no muscle took air, it is run again, and later runs record more.
 analysis::Summary Ensemble::figures_of(const Member& member, const Outcome& outcome,
                                        bool& no_air) const {
   const analysis::Machine& machine = member.machine;
-  if (member.selection)
+  if (member.selection && outcome.took_air)
     if (auto figures = member.selection->figures(outcome.table, machine))
       return std::move(*figures);
   Outcome again;

@@ -35,6 +35,7 @@ Outcome RecordedRun::finish() {
   out.wall = wall.count();
   out.stopped = watch_.was_stopped;
   out.failure = simulation_.failure();
+  if (const plant::Machine* machine = simulation_.machine()) out.took_air = machine->took_air();
   if (const RemoteBoards* far = simulation_.remote()) {
     out.line = far->problem();
     out.lost = far->lost();

@@ -9,6 +9,9 @@ using signals::Tick;
 
 namespace {
 
+// Memory of a run whose samples are not moved to a file [byte].
+constexpr std::size_t most_memory = 1 << 22;
+
 // Returns 1 or 0 for an on/off valve, a share of its range for a regulator.
 double logged(const signals::Edge& edge) noexcept {
   if (edge.level > 0) return static_cast<double>(edge.level) / signals::max_level;
@@ -41,14 +44,16 @@ Recorder::Recorder(const experiment::Experiment& e, std::span<const Column> colu
     const std::size_t topic = first_edge_++;
     if (!is_wanted(c.topic) || (truths == Truths::none && c.is_simulated_only())) continue;
     width += c.topic.fields.size();
-    needs_truths_ = needs_truths_ || c.is_simulated_only();
+    if (c.is_simulated_only())
+      needs_ = std::max(needs_, c.is_of_motion ? Needs::motion : Needs::all);
     columns_.push_back({c, topic});
   }
 
   // Reserve storage for the largest number of samples and edges.
   const auto samples = static_cast<std::size_t>(end / period_ + 2);
   const std::size_t edges = most_edges_ = controllers.most_edges(end);
-  if (samples > signals::Column::page_size || edges > signals::Column::page_size) {
+  const std::size_t most = samples * width + 2 * edges * (topics_.size() - first_edge_);
+  if (most * sizeof(double) > most_memory) {
     pages_ = signals::PageFile::make();
     if (!pages_.open(0)) pages_ = {};  // then all samples are kept in memory
   }
@@ -56,9 +61,9 @@ Recorder::Recorder(const experiment::Experiment& e, std::span<const Column> colu
   for (std::size_t i = 0; i < width; ++i) values_.push_back(room<signals::Column>(pages_, samples));
   for (std::size_t i = first_edge_; i < topics_.size(); ++i) {
     const bool is = is_wanted(topics_[i]);
-    const std::size_t most = is ? edges : 0;
+    const std::size_t room_of = is ? edges : 0;
     edges_.push_back(
-        {is, 0, room<signals::Times>(pages_, most), room<signals::Column>(pages_, most)});
+        {is, 0, room<signals::Times>(pages_, room_of), room<signals::Column>(pages_, room_of)});
   }
 }
 
@@ -142,7 +147,8 @@ void Recorder::put_sample(const Snapshot& now) noexcept {
 void Recorder::sample(Tick t) noexcept {
   if (t < next_ || !begin_sample(t)) return;
   const double time = static_cast<double>(t) * signals::tick_seconds;
-  if (machine_ && needs_truths_) machine_->truth(time, truths_);
+  if (machine_ && needs_ == Needs::all) machine_->truth(time, truths_);
+  if (machine_ && needs_ == Needs::motion) machine_->true_motion(time, truths_);
   controllers_.with_snapshot(time, &truths_, [&](const Snapshot& now) { put_sample(now); });
 }
 

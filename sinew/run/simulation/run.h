@@ -58,6 +58,7 @@ struct Outcome {
   std::vector<gait::Change> changes;  // the plan's, followed by steered ones
   std::int64_t unreachable_periods = 0;
   std::int64_t nodes = 0;  // steps of the integrator
+  bool took_air = false;   // a muscle of the simulated machine took air from the supply
   double duration = 0;     // simulated [s]
   double wall = 0;         // [s]
 

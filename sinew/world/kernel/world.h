@@ -108,6 +108,11 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   // part of the state is not finite.
   const Motion& motion() const noexcept { return state_.now.motion; }
   const auto& constants() const noexcept { return mechanism_.constants(); }
+  bool took_air() const noexcept {  // whether a muscle took air from the supply since the start
+    bool any = false;
+    for (int i = 0; i < air_.muscles(); ++i) any = any || air_.account(state_.now.air, i).in > 0;
+    return any;
+  }
   double air_mass() const noexcept {  // chambers, hoses and tank [kg]
     return air_.total_mass(state_.now.air, state_.first.ends.travel);
   }
