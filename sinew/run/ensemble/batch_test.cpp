@@ -39,6 +39,7 @@ void expect_same(const Outcome& a, const Outcome& b) {
   EXPECT_EQ(a.changes.size(), b.changes.size());
   EXPECT_EQ(a.controller.late + a.controller.invalid, b.controller.late + b.controller.invalid);
   EXPECT_EQ(a.supervised.rejected, b.supervised.rejected);
+  EXPECT_EQ(a.took_air, b.took_air);
 }
 
 // Compares walks of these seeds, which record these topics (nullptr: all), with runs alone. Returns

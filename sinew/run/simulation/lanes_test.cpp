@@ -57,6 +57,7 @@ void expect_same_outcome(const Outcome& a, const Outcome& b) {
   ASSERT_NO_FATAL_FAILURE(expect_same(a.table, b.table));
   EXPECT_EQ(a.status, b.status);
   EXPECT_EQ(a.nodes, b.nodes);
+  EXPECT_EQ(a.took_air, b.took_air);
   EXPECT_EQ(a.duration, b.duration);
   EXPECT_EQ(a.no_room, b.no_room);
   EXPECT_EQ(a.unreachable_periods, b.unreachable_periods);
@@ -70,8 +71,9 @@ void expect_same_outcome(const Outcome& a, const Outcome& b) {
   EXPECT_EQ(a.supervised.trip.at, b.supervised.trip.at);
 }
 
-// Runs them in lanes; returns the outcomes in their order.
-std::vector<Outcome> in_lanes(const std::vector<Experiment>& each, int most) {
+// Runs them in lanes, and records these topics (nullptr: all); returns the outcomes in their order.
+std::vector<Outcome> in_lanes(const std::vector<Experiment>& each, int most,
+                              const signals::TopicNames* topics = nullptr) {
   std::vector<Outcome> out(each.size());
   std::size_t next = 0;
   run_in_lanes({.next = [&] { return next < each.size() ? &each[next++] : nullptr; },
@@ -80,7 +82,8 @@ std::vector<Outcome> in_lanes(const std::vector<Experiment>& each, int most) {
                       EXPECT_FALSE(thrown);
                       out[static_cast<std::size_t>(&e - each.data())] = std::move(outcome);
                     },
-                .most = most});
+                .most = most,
+                .topics = [&](const Experiment&) { return topics; }});
   return out;
 }
 
@@ -111,6 +114,27 @@ TEST(Lanes, RunsSideBySideHaveTheBitsThatTheyHaveAlone) {
   const std::vector<Outcome> lanes = in_lanes(shuffled, 8);
   for (std::size_t i = 0; i < order.size(); ++i)
     ASSERT_NO_FATAL_FAILURE(expect_same_outcome(lanes[i], alone[order[i]])) << shuffled[i].path;
+}
+
+// Positions and rates are not computed with the other true values if these are not recorded.
+TEST(Lanes, TrueMotionRecordedByItselfIsThatOfAllTrueValues) {
+  const signals::TopicNames motion = {"/true/trolley/position", "/true/trolley/velocity",
+                                      "/true/joint/hip/angle", "/true/joint/knee/velocity"};
+  std::mt19937 random(8);
+  std::vector<Experiment> each;
+  for (int i = 0; i < 12; ++i) each.push_back(random_experiment(random));
+  const std::vector<Outcome> lanes = in_lanes(each, 8, &motion);
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < each.size(); ++i) {
+    signals::Table alone = run(each[i]).table;
+    ASSERT_EQ(alone.series.size(), lanes[i].table.series.size()) << each[i].path;
+    for (std::size_t s = 0; s < alone.series.size(); ++s) {
+      if (!motion.contains(alone.series[s].topic.name)) alone.series[s] = lanes[i].table.series[s];
+      compared += motion.contains(alone.series[s].topic.name);
+    }
+    ASSERT_NO_FATAL_FAILURE(expect_same(lanes[i].table, alone)) << each[i].path;
+  }
+  EXPECT_GT(compared, 24u);
 }
 
 // A machine that diverges ends its own run, as it does by itself.
