@@ -119,7 +119,8 @@ std::string name_of(Status status) {
   return fmt::format("{}, {}", name, status);
 }
 
-// Returns what may remedy an error, before the last resort, which is the processor.
+// Returns what may remedy an error, as the beginning of "use the processor"; "" if nothing is
+// known.
 std::string_view remedy(Status status) {
   switch (status) {
     case out_of_memory:
@@ -287,7 +288,7 @@ void* compile(const Current& current, const std::string& ptx) {
   return module;
 }
 
-// Returns a number of bytes as text.
+// Returns a number of bytes as "1.5 MB".
 std::string megabytes(std::size_t bytes) {
   return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
 }

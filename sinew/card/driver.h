@@ -9,9 +9,9 @@
 //   results.read(std::as_writable_bytes(std::span(numbers)));
 //
 // libcuda.so.1 is opened when it is first needed, with declarations of our own: neither a build nor
-// a start of the program depends on it. Every function may be called from any thread. Where no
-// other exception is named, a failure is a std::runtime_error with the driver's call, its error and
-// a remedy.
+// a start of the program depends on it. Every function may be called from any thread. Unless
+// another exception is named, a failure throws std::runtime_error with the driver's call, its error
+// and a remedy.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,8 @@ struct Properties {
   std::string driver;        // newest version of CUDA that the driver supports, "12.4"
 };
 
-// Returns the usable cards. `problem` is empty, or the reason why the list is. Throws nothing.
+// Returns the usable cards. Sets `problem` to the reason if the list is empty, else to "". Throws
+// nothing.
 std::vector<Properties> list(std::string& problem);
 
 struct Context;
@@ -57,7 +58,7 @@ class Program {
   // argument, which is copied before the call returns.
   void launch(unsigned blocks, unsigned threads, std::span<void*> parameters);
 
-  // Returns when everything that was started has ended, and reports its failure.
+  // Waits until everything that was started has ended. Throws if it failed.
   void wait();
 
  private:

@@ -12,19 +12,20 @@ namespace {
 
 using config::Origins;
 
-// Returns the bounds of a value that the file states, else the value itself.
+// Returns the range that the file states for a value; without one, the value as both bounds.
 Bounds bounds_of(const config::Origin* origin, double value) {
   if (!origin || !origin->range_si) return {value, value};
   return {(*origin->range_si)[0], (*origin->range_si)[1]};
 }
 
-// Returns the bounds of a delay; nothing if the file lacks it.
+// Returns the bounds of a delay; nothing if the file has no such key.
 std::optional<Bounds> delay_of(const Origins& origins, const std::string& path, double value) {
   const config::Origin* origin = config::find_origin(origins, path);
   if (!origin || origin->is_default) return std::nullopt;
   return bounds_of(origin, value);
 }
 
+// Returns a valve with the bounds that its maker publishes.
 PublishedValve published(const gas::Valve& valve, const Origins& origins) {
   const std::string path = "valve." + valve.name + ".";
   const bool iso = valve.flow.law == gas::Flow::Law::iso6358;

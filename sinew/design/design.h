@@ -26,11 +26,11 @@ struct Value {
   double number = 0;
   std::string unit;  // SI, "Pa gauge"; "1": a plain number
   double low = unknown, high = unknown;
-  std::string note = "";      // origin or meaning of the number
+  std::string note = "";      // source or meaning of the number
   std::string shown_in = "";  // unit in text and on the page, "min"; empty: the chosen set's
 };
 
-// A table, such as all feasible designs. A cell is a number, NaN if unknown, or words.
+// A table, such as all feasible designs. A cell is a number, NaN if unknown, or a text.
 struct Column {
   std::string key, name;
   std::string unit = "1";
@@ -52,9 +52,10 @@ struct Result {
   std::vector<report::Plot> plots;    // drawn on the page
   std::vector<std::string> notes;     // assumptions, and reasons of a choice
   std::vector<std::string> warnings;  // for stderr
-  std::vector<std::string> unseen;    // limits of the result, in sentences
-  std::string refused;                // why no design is possible; empty: there is one
-  // Returns the text of a file that the design makes, as it would be written at `out`; null: none.
+  std::vector<std::string> unseen;    // what the result does not include, in sentences
+  std::string refused;                // why no design is possible; empty: a design is possible
+  // Returns the text of the robot file that the design makes. Relative paths in it are for a file
+  // at `out`. Null if the design makes no file.
   std::function<std::string(const std::string& out)> file;
 
   // Returns the value of a key. Throws std::out_of_range if the result lacks it.

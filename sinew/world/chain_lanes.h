@@ -1,12 +1,13 @@
-// world/chain_lanes.h - W plain machines side by side (lane_events.h), each of which is a World,
-// with the same bits as alone. For rare operations a lane is copied to its World.
+// world/chain_lanes.h - W plain machines side by side (lane_events.h), with the bits that each has
+// alone. Each machine also has a World, to which its lane is copied for rare operations, such as
+// saving.
 //
 //   run(loop)        runs all machines, each by its own loop: loop(k) is called whenever machine k
-//                    has reached the instant that it returned last
-//   advance(until)   commits every node up to each machine's own instant, many at once
-//   drive, read, …   as in World, for machine k; a node that only this one needs is committed alone
-//   world(k)         machine k as a World, for saving. This call updates the World from its lane;
-//                    after the World has advanced by itself, the lane is updated from it
+//                    has reached the instant that loop(k) returned last
+//   advance(until)   commits the nodes of all machines together, each up to an instant of its own
+//   drive, read, …   as in World, for machine k; they commit the nodes of machine k alone
+//   world(k)         the World of machine k, updated from its lane. If the World then advances by
+//                    itself, the next call of another function updates the lane from it
 #pragma once
 
 #include <array>
@@ -22,8 +23,8 @@
 
 namespace sinew::plant {
 
-// Parts that each machine has alone: its World. Its valves are in use; its motion is out of date
-// until world() is called.
+// Parts of the machines that are not in lanes: a World each. Its valves are always up to date; its
+// motion is not, until ChainLanes::world() copies it from the lane.
 template <int N, int W>
 class LaneWorlds {
   static constexpr auto lanes = static_cast<std::size_t>(W);
@@ -45,7 +46,7 @@ class LaneWorlds {
   bool ended(int k) const noexcept { return world(k).ended(); }
   void end(int k) noexcept { world(k).mutable_state().ended = true; }
 
-  // Return the positions of its valves, and their number.
+  // Return the positions of the machine's valves, and their number.
   const air::AirValves<chain_muscles>& valves(int k) const noexcept {
     return world(k).state().valves;
   }
@@ -66,7 +67,8 @@ class LaneWorlds {
     return world(k).air().supply_state(s.now.air, s.first.air);
   }
 
-  // Notes that the lane has moved on. is_outdated() returns whether it has since updated().
+  // moves() notes that the lane has advanced, updated() that its World is up to date again;
+  // is_outdated() returns whether the World is not.
   void moves(int k) noexcept { outdated_[static_cast<std::size_t>(k)] = true; }
   bool is_outdated(int k) const noexcept { return outdated_[static_cast<std::size_t>(k)]; }
   void updated(int k) noexcept { outdated_[static_cast<std::size_t>(k)] = false; }
@@ -92,6 +94,7 @@ bool is_plain_chain(const Setup& setup) {
   return air.stays_plain();
 }
 
+// The machines, with the functions of the list above.
 template <int N, int W>
 class ChainLanes : public LaneEvents<N, W, LaneWorlds<N, W>> {
   using Events = LaneEvents<N, W, LaneWorlds<N, W>>;
@@ -102,13 +105,14 @@ class ChainLanes : public LaneEvents<N, W, LaneWorlds<N, W>> {
   using typename Events::Instants;
   static constexpr double finished = std::numeric_limits<double>::infinity();
 
-  // Returns whether this machine can be simulated side by side with others; alike() compares two.
+  // Return whether a machine can be simulated side by side with others, and whether two machines
+  // can be so together.
   static bool fits(const Setup& setup) { return is_plain_chain<N>(setup); }
   static bool alike(const Setup& a, const Setup& b) {
     return plant::alike(chain_routing_of(a.robot), chain_routing_of(b.robot));
   }
 
-  // Throws std::invalid_argument if a machine is not supported or not like the first.
+  // Throws std::invalid_argument if a machine does not fit(), or is not alike() to the first.
   explicit ChainLanes(std::span<const Setup, lanes> setups);
 
   // Runs the machines that are not parked. loop(k) runs machine k's loop as far as its nodes reach
@@ -156,7 +160,7 @@ class ChainLanes : public LaneEvents<N, W, LaneWorlds<N, W>> {
   // Returns machine k as a World, updated from its lane.
   World& world(int k) noexcept;
 
-  // Continues machine k from this state: its own, or one of a world with an equal setup.
+  // Continues machine k from a state of its World, or of a World with an equal setup.
   void restore(int k, const typename World::State& state) noexcept;
 
  private:
@@ -168,7 +172,9 @@ class ChainLanes : public LaneEvents<N, W, LaneWorlds<N, W>> {
   using typename Events::S;
 
   [[noreturn]] static void refuse() {
-    throw std::invalid_argument("machines that cannot go side by side");
+    throw std::invalid_argument(
+        "found machines that cannot be simulated side by side; expected chains that fit() and are "
+        "alike()");
   }
   static Machines machines_of(std::span<const Setup, lanes> setups);
   static ChainBody<N, S> bodies(const Machines& machines);

@@ -1,6 +1,6 @@
-// world/flat_leg.h - a plain leg as one block of bytes: its model, its state and all that it
-// computes with, without a pointer. It is copied as bytes, also to a graphics card (run/card), and
-// has the same bits as a World.
+// world/flat_leg.h - a plain leg (lane_events.h) as one block of bytes without pointers: model,
+// state and intermediate values. It can be copied as bytes, also to a graphics card (run/card), and
+// its results have the bits of a World's.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace sinew::plant {
 
-// Parts of a plain chain in addition to its lane (lane_events.h): its only lane is 0.
+// Parts of a plain chain that are not in its lane, for LaneEvents with one lane, number 0.
 template <int N>
 class FlatMachine {
  public:
@@ -82,7 +82,7 @@ class FlatChain : public LaneEvents<N, 1, FlatMachine<N>> {
   using Events = LaneEvents<N, 1, FlatMachine<N>>;
 
  public:
-  // Returns whether this machine can be one.
+  // Returns whether this machine can be a FlatChain.
   static bool fits(const Setup& setup) {
     if (!is_plain_chain<N>(setup) || setup.robot.sensors.size() > FlatMachine<N>::most_sensors)
       return false;

@@ -5,7 +5,7 @@
 // lanes. Each machine has its own steps, edges and failures. They run in lockstep by node, not by
 // time: a machine that waits is still computed in its lane, and the result is discarded.
 //
-// Machines is what each machine has alone, for lane k:
+// Machines has the parts of each machine that are not in lanes; its functions, for lane k:
 //
 //   mechanism(k), senses(k)           its ChainMechanism and its sensors
 //   lag(k, channel), ended(k), end(k) as in World
@@ -70,11 +70,11 @@ class LaneEvents {
   LaneEvents(Machines machines, const Body& body, const Air& air)
       : machines_(std::move(machines)), nodes_of_all_(body(machines_), air(machines_)) {}
 
-  // Machine k for its senses (planar/planar_mechanism.h): with the interface of World, from its
-  // lane.
+  // Machine k as its senses use it (planar/planar_mechanism.h): the interface of World, with the
+  // values of its lane.
   class LaneView;
 
-  // Return the next node of machine k [s], and a mask with its lane.
+  // Return the instant of the next node of machine k [s], and a mask of its lane alone.
   double next_node(int k) const noexcept;
   Mask only(int k) const noexcept;
   void update_step_preview(int k) noexcept;
@@ -100,7 +100,7 @@ class LaneEvents {
   std::array<air::Failure, lanes> failure_{};
 
   typename Integrated::StepPreview step_preview_;  // whole steps, used by evaluations between nodes
-  std::uint32_t has_step_preview_ = 0;  // it is valid for the node of these machines, a bit each
+  std::uint32_t has_step_preview_ = 0;  // bit k: it is valid for the present node of machine k
 };
 
 template <int N, int W, class Machines>

@@ -14,9 +14,8 @@
 // Differences from appendix B, all outside the range of the leg's runs:
 //   - near its pole [27] gives no value, where the code converts any result to `short`
 //   - outputs and sums saturate, where the code's `short` wraps
-//   - the speed is by default the step times 100/s, where the code divides by the double 0.01,
-//   which
-//     is larger by 2e-17: an output that would be a whole number becomes one lower in the code
+//   - the speed is by default the step times 100/s, where the code divides by the double 0.01.
+//     That is too large by 2e-17: what would be a whole number becomes one lower in the code
 #pragma once
 
 #include <cstdint>
@@ -71,10 +70,10 @@ constexpr Stiffness tension_share(const MuscleConfig& muscle, const JointConfig&
   return {tension / pole, true};
 }
 
-// Returns [60] with [27], tensions in counts. For several actuators in parallel the tension is the
-// bundle's, and so is the stiffness (thesis 5.1). With one transducer, equal tension is assumed for
-// the other muscle: this is right for an unloaded joint at rest; a load causes an error of the
-// stiffness.
+// Returns the stiffness of a joint by [60] and [27], from tensions in counts. For several actuators
+// in parallel the tension is the bundle's, and so is the stiffness (thesis 5.1). With one
+// transducer, equal tension is assumed for the other muscle: this is right for an unloaded joint at
+// rest; a load causes an error of the stiffness.
 constexpr Stiffness joint_stiffness(const JointConfig& joint, Truncation mode, const Pair& length,
                                     const Pair& tension) noexcept {
   float flexor_tension = static_cast<float>(tension.flexor);
@@ -98,7 +97,7 @@ constexpr Stiffness joint_stiffness(const JointConfig& joint, Truncation mode, s
                          {flexor_tension, extensor_tension});
 }
 
-// Returns [26] of one muscle from its gauge pressure, with [30], in lbf in/rad:
+// Returns the stiffness of one muscle by [26] and [30], from its gauge pressure, in lbf in/rad:
 //
 //   k = factor L p Eff(p)
 //
@@ -114,7 +113,7 @@ constexpr float pressure_stiffness(const MuscleConfig& muscle, std::int32_t leng
   return muscle.pressure_factor * static_cast<float>(length) * p * eff;
 }
 
-// Returns [60] with [26].
+// Returns the stiffness of a joint by [60] and [26], from pressures in counts.
 constexpr float joint_stiffness_from_pressure(const JointConfig& joint, const Pair& length,
                                               const Pair& pressure) noexcept {
   return pressure_stiffness(joint.flexor, length.flexor, pressure.flexor) +

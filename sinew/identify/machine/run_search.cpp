@@ -136,9 +136,9 @@ std::size_t partner_of(std::span<const Parameter> parameters, std::size_t i) {
   return parameters.size();
 }
 
-// Returns trial points in the cells some ticks around, for one valve after the other. A run
-// best determines how much longer a valve is open than its coil is on, so the difference of the
-// delays is kept where possible.
+// Returns trial points in the cells up to some ticks away, for one valve after the other. What a
+// run determines best of a valve is how much longer it is open than its coil is on: so the
+// difference of its two delays is kept where possible.
 TrialPoints cells_around(std::span<const Parameter> parameters, const std::vector<double>& p,
                          int ticks) {
   constexpr double inset = 0.02 * tick;
@@ -225,8 +225,8 @@ bool same_cells(const std::vector<RunCell>& a, const std::vector<RunCell>& b) {
   });
 }
 
-// Returns the neighbouring trial points that the run does not exclude, after adjusting all
-// parameters, the likely ones first.
+// Returns the points in neighbouring cells that the run does not exclude even after all parameters
+// are adjusted, the likely ones first.
 TrialPoints open_places(const RunResiduals& residuals, std::span<const Parameter> parameters,
                         int threads, const RunSearched& at, double least) {
   TrialPoints tried = cells_around(parameters, at.p, 1), out;
@@ -292,8 +292,8 @@ RunSearched search_run(const RunResiduals& beginning, const RunResiduals& whole,
   constexpr int most_steps = 15;
   const auto report = [&](const std::string& what, double rms) {
     if (options.progress)
-      options.progress(fmt::format("{}: {:.4g} times the noise left, {} + {} simulations", what,
-                                   rms, beginning.simulations(), whole.simulations()));
+      options.progress(fmt::format("{}: residuals of {:.4g} times the noise, {} + {} simulations",
+                                   what, rms, beginning.simulations(), whole.simulations()));
   };
   std::vector<double> start;
   for (const Parameter& one : parameters) start.push_back(one.start);
@@ -414,8 +414,8 @@ bool run_tangent(const RunResiduals& residuals, std::span<const Parameter> param
 
 RunSearched search_in_cells(const RunResiduals& residuals, std::span<const Parameter> parameters,
                             const std::vector<double>& p, int steps, int threads) {
-  constexpr std::array<double, 4> dampings = {1e-3, 0.1, 10,
-                                              1e3};  // times the last one that helped
+  // Factors on the last damping that helped.
+  constexpr std::array<double, 4> dampings = {1e-3, 0.1, 10, 1e3};
   constexpr double nothing = 1e-3;  // share of half the sum of squares, far below the noise
   RunSearched out{p, run_cells(parameters, p), unbounded};
   for (std::size_t i = 0; i < p.size(); ++i)

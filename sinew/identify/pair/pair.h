@@ -1,11 +1,11 @@
 // identify/pair/pair.h - identification of a sealed antagonistic pair that is moved by hand or
-// motor: elastic and trapped-air stiffness, dry friction, viscous loss and mass from effort,
-// position and pressures.
+// motor: elastic and trapped-air stiffness, dry friction, viscous loss and mass from effort (force
+// or torque), position and pressures.
 //
-// The laws are those of pair_law.h. All recordings share their physics. Each recording has a
-// bias of the effort and an initial share of dry friction; each rig has a delay of the effort
-// and, except for the first, a gain relative to the first. The law is chosen by the errors on five
-// blocks of time, each predicted from the others.
+// The laws are those of pair_law.h. The physical values are common to all recordings. Each
+// recording has a bias of the effort and an initial value of phi, the share of dry friction; each
+// rig has a delay of the effort and, except for the first, a gain relative to the first. The law is
+// chosen by the errors on five blocks of time, each predicted from the others.
 //
 // Not determined by such data: the gain of a single rig, as everything scales with it; the area A
 // and the stiffness k separately, if the pressures follow the position; which part of Phi_c is due
@@ -36,7 +36,7 @@ struct PairOptions {
   Constraints constraints;
 };
 
-// Total stiffness including the moving air, with half a 95 % interval.
+// Total stiffness, of the muscles and of the air in them, with half its 95 % interval.
 struct PairStiffness {
   double value = 0, uncertainty = 0;  // [N/m] or [N m/rad]
   double air = 0;                     // part of the trapped air; NaN: not determined

@@ -24,7 +24,7 @@ using signals::Tick;
 
 namespace {
 
-// Returns a recorder whose true values are given, for the topics of a run.
+// Returns a recorder for the topics of a run, which is given the true values of each sample.
 Recorder recorder_of(const BatchedRun& run, const Controllers& controllers, Tick last) {
   const std::vector<Column> all = columns(*run.experiment);
   return {*run.experiment, all, controllers, Recorder::Truths::given, last, run.topics};
@@ -60,12 +60,13 @@ class Prepared {
   // Returns the names of its columns.
   const std::string& columns() const { return columns_; }
   Tick last() const { return last_; }
-  // Return room for its samples and edges, and the memory of its plan's table [byte].
+  // Return the largest number of its samples and edges, and the memory of its plan's table [byte].
   std::int32_t samples() const { return samples_; }
   std::int32_t edges() const { return edges_; }
   std::size_t plan_size() const { return plan_rows_ * PlanTable::row_size; }
 
-  // Returns its walk with the commands of this plan, which begin at this place among all.
+  // Returns its walk with the commands of this plan; `first` is the index of the first of them in
+  // Batched::commands.
   Walk take_walk(std::shared_ptr<const PlanTable> plan, std::int64_t first) {
     plan_ = std::move(plan);
     Walk out = *walk_;
@@ -88,7 +89,7 @@ class Prepared {
   std::shared_ptr<const PlanTable> plan_;
 };
 
-// The controllers show what the walk has computed to the recorder.
+// The recorder reads from controllers that are set to the values of each sample.
 Outcome Prepared::outcome(const Walk& ended, const Batched& batched, std::size_t number) const {
   Controllers controllers(*run_.experiment, nullptr);
   const auto show = [&](const Shown& shown) {
@@ -123,7 +124,7 @@ Outcome Prepared::outcome(const Walk& ended, const Batched& batched, std::size_t
   return out;
 }
 
-// Returns the run, if a batch can hold it. What run() would throw is left to run().
+// Returns the run; nullptr if a batch cannot run it, or if it is refused: then run() throws.
 std::unique_ptr<Prepared> prepare(const BatchedRun& run) {
   try {
     if (run.experiment == nullptr || !fits_batch(*run.experiment)) return nullptr;
@@ -201,7 +202,7 @@ bool same_bits(const signals::Table& a, const signals::Table& b) {
   return all;
 }
 
-// Throws if a run of the launch has other bits than by itself: then none can be trusted.
+// Throws if a run of the launch has other bits than run(): then none of its runs can be trusted.
 void compare_with_alone(const BatchedRun& of, const Outcome& launched) {
   const Outcome alone = run(*of.experiment, {.topics = of.topics});
   if (!same_bits(launched.table, alone.table) || launched.nodes != alone.nodes ||
@@ -233,7 +234,7 @@ void launch_on_processor(const Batched& batched) {
 
 namespace {
 
-// The memory of one launch.
+// One launch, with its memory.
 class Part {
  public:
   // Takes the walks of these runs, with room for their samples and edges.
@@ -280,8 +281,8 @@ class Part {
   std::vector<std::uint32_t> edge_;
 };
 
-// Returns the number of the first runs that fit in this memory [byte], at least 1. Each has the
-// room that the largest of them needs.
+// Returns how many of the runs, from the first on, fit in this memory [byte]; at least 1. Each
+// takes as much as the largest of them.
 std::size_t runs_in(std::size_t memory, std::span<Prepared* const> runs, std::size_t words) {
   std::set<std::string> plans;
   std::size_t of_plans = 0, largest = 0, count = 0;

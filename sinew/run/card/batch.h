@@ -16,8 +16,8 @@
 
 namespace sinew::run {
 
-// Runs that are launched together. `sample` and `edge` have room for kept.samples and kept.edges of
-// each run, in the order of Kept; the pointers of Kept are not set.
+// Runs that are launched together, and the memory for what is kept of them: `wanted`, `samples`,
+// `edges`, `sample` and `edge` are those of Kept (walk.h).
 struct Batched {
   std::span<Walk> walks;
   std::span<const control::Command> commands;
@@ -26,7 +26,7 @@ struct Batched {
   std::span<std::uint64_t> sample;
   std::span<std::uint32_t> edge;
 };
-// A card or the processor, which runs them.
+// Device that runs a launch: a card or the processor.
 struct Launcher {
   // Runs all of them to their ends. Throws std::runtime_error if it cannot.
   std::function<void(const Batched&)> launch;
@@ -37,29 +37,28 @@ struct Launcher {
 // Runs them on the processor, one after the other.
 void launch_on_processor(const Batched& batched);
 
-// The error of a launcher that computes other bits than the processor.
+// A launcher computes other bits than the processor.
 struct WrongBits : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 // An experiment of a batch. It must exist until the batch is done.
 struct BatchedRun {
-  const experiment::Experiment* experiment = nullptr;  // nullptr: it is to be run by itself
+  const experiment::Experiment* experiment = nullptr;  // nullptr: it does not run in the batch
   const signals::TopicNames* topics = nullptr;         // those that its table records; nullptr: all
-  std::string plan;  // runs with equal texts have the same plan, and the same robot as its
-                     // controller has it
+  std::string plan;  // a text that is equal for runs with the same plan table (plan_table.h)
 };
 
-// Returns whether a machine of this experiment, and its plan, can be held by a batch: a leg of two
-// links whose muscles are filled through valves from a constant supply, without faults, on one
-// board, with a plan that measures nothing.
+// Returns whether a batch can run this experiment: a leg of two links whose muscles are filled
+// through valves from a constant supply, without faults, on one board, with a plan that measures
+// nothing.
 bool fits_batch(const experiment::Experiment& experiment);
 
 // Runs them and passes the outcome of each one, with the bits of run(), to done(number, outcome),
-// called by threads in any order. Runs that do not fit, or do not end as planned, have none: they
-// are to be run by themselves. Prepares and finishes the runs on threads. Two runs of each
-// launch are also computed by run() and compared first; throws WrongBits if they differ, and what
-// the launcher throws. Begins no further launch once stopped() returns true.
+// which threads call in any order. It is not called for runs that do not fit or do not end as
+// planned: the caller makes these by run(). Prepares and finishes the runs on threads. First
+// compares two runs of each launch with run(); throws WrongBits if they differ, and what the
+// launcher throws. Begins no further launch once stopped() returns true.
 void run_batch(std::span<const BatchedRun> runs, const Launcher& launcher, int threads,
                const std::function<bool()>& stopped,
                const std::function<void(std::size_t, Outcome)>& done);

@@ -1,6 +1,6 @@
 // run/card/kernel.cu - walk.h for NVIDIA cards, compiled by clang without the maker's toolkit
-// (cmake/card.cmake). Everything is the text that the processor runs; sources of the library that it
-// calls are included here.
+// (cmake/card.cmake). All code is that of the processor: the sources of the library that it calls are
+// included here.
 #define __host__ __attribute__((host))
 #define __device__ __attribute__((device))
 #define __global__ __attribute__((global))
@@ -19,7 +19,7 @@
 #include "sinew/run/controllers/board.cpp"
 #pragma clang force_cuda_host_device end
 
-// A thread runs a walk; all of a block meet at each node.
+// Each thread runs one walk. The threads of a block wait for each other at each node.
 extern "C" __global__ void __attribute__((launch_bounds(sinew::run::kernel_threads, sinew::run::kernel_blocks)))
 walk(sinew::run::Walk* walks, sinew::run::Launch launch) {
   const std::int64_t i =

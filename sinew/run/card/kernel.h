@@ -7,12 +7,15 @@
 
 namespace sinew::run {
 
-// Threads of a block. All of them meet at each node, so that they execute the same instructions.
+// Threads of a block. They wait for each other at each node, so that they execute the same
+// instructions.
 inline constexpr unsigned kernel_threads = 128;
-// Blocks that a multiprocessor computes at the same time: more would have too few registers.
+// Blocks that a multiprocessor computes at the same time. With more, a thread has too few
+// registers.
 inline constexpr unsigned kernel_blocks = 4;
 
-// Runs walks[i] with meet(x) among the threads of a block; surplus threads only meet the others.
+// Runs walks[i]; meet(x) returns whether x is true for any thread of the block. A thread without a
+// walk only calls meet().
 template <class Meet>
 void run_thread(Walk* walks, const Launch& launch, std::int64_t i, const Meet& meet) {
   const bool runs = i < launch.kept.runs;

@@ -57,8 +57,8 @@ void launch_with(card::Program& program, const Batched& batched) {
 
 }  // namespace
 
-// Half of what it can compute at the same time is nearly as fast, and each run needs memory of the
-// computer.
+// This is half of the runs that the card can compute at the same time: more are hardly faster, and
+// each needs memory of the computer too.
 std::size_t Card::runs() const {
   return static_cast<std::size_t>(std::max(1, properties_.multiprocessors)) * kernel_threads *
          kernel_blocks / 2;
@@ -70,7 +70,7 @@ card::Program& Card::program() {
 }
 
 std::size_t Card::memory() {
-  constexpr std::size_t most = std::size_t{2} << 30;  // it is needed in the computer too
+  constexpr std::size_t most = std::size_t{2} << 30;  // the computer needs as much
   const std::lock_guard lock(mutex_);
   return std::min(most, program().free_memory() / 2);  // half: other programs may take some
 }

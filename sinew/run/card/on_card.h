@@ -13,7 +13,8 @@
 
 namespace sinew::run {
 
-// A card that is opened by its first launch, and stays open. Threads may use it at the same time.
+// A card. Its first launch, or call of memory(), opens it; it stays open. Threads may use it at the
+// same time.
 class Card {
  public:
   // Takes one of card::list().
@@ -23,7 +24,7 @@ class Card {
   const card::Properties& properties() const { return properties_; }
   // Returns the number of runs that keep the card busy.
   std::size_t runs() const;
-  // Returns the largest memory of a launch [byte].
+  // Returns how much memory a launch may take [byte].
   std::size_t memory();
 
   // Runs a batch. Throws std::runtime_error if the card cannot; has_failed() then stays true.

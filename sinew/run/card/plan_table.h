@@ -1,5 +1,5 @@
-// run/card/plan_table.h - a plan that measures nothing, as a table: its commands in each period do
-// not depend on the machine, and are computed before the runs.
+// run/card/plan_table.h - a plan whose commands do not depend on measured values, as a table: its
+// commands in each period are computed before the runs.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@
 
 namespace sinew::run {
 
-// Returns whether a plan's commands depend on what is measured: a phase ends at a level, or follows
-// the ground's force.
+// Returns whether a plan's commands depend on measured values: a phase ends when a value reaches a
+// level, or follows the ground's force.
 bool measures(const gait::Plan& plan);
 
-// Returns what the gait controller uses of a robot: numbers that act on its body, its air and its
-// readings alone are 0. Robots that are equal then have equal plan tables.
+// Returns a robot with the numbers that its gait controller uses; all others, of its body, air and
+// sensors, are 0. Robots that are equal then have equal plan tables.
 robot::Robot as_controlled(robot::Robot robot);
 
 class PlanTable {

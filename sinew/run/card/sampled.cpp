@@ -10,11 +10,12 @@ namespace {
 
 using Words = std::array<std::uint64_t, words_of<Shown>>;
 
-// Changes bits in each byte (a flag, a count, the digits of a number and its exponent), and a sign.
+// Bits to change in a word: the lowest of each byte, which changes a flag, a count, or digits and
+// exponent of a number; and the sign of a number.
 constexpr std::uint64_t changed_bits[] = {0x0101010101010101, std::uint64_t{1} << 63};
 
-// Samples from which words are changed: with different true values, in all phases of the
-// controller, and with its flags set and not.
+// Returns the samples in which words are changed: with different true values, in all phases of the
+// controller, with its flags set and not set.
 std::vector<Words> samples() {
   std::vector<Words> out;
   for (const double value : {1.5, -0.3, 7e4})

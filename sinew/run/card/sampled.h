@@ -10,9 +10,9 @@
 
 namespace sinew::run {
 
-// Returns the words that these columns depend on, ascending. Each word is changed in several
-// samples to see which values change; `controllers` show these samples and are left in another
-// state.
+// Returns the numbers of the words that these columns depend on, ascending. They are found by
+// trial: each word is changed in several samples, and the columns are computed again. `controllers`
+// are left in another state.
 std::vector<std::uint16_t> words_behind(std::span<const Column> columns, Controllers& controllers);
 
 }  // namespace sinew::run

@@ -49,7 +49,9 @@ double runs_per_second(Card& card, const experiment::Experiment& experiment) {
   launch_on_processor(batched(first));
   if (walks.front().status() != first.front().status() ||
       walks.front().leg().nodes() != first.front().leg().nodes())
-    throw std::runtime_error("the graphics card ends a run in another way than the processor");
+    throw std::runtime_error(
+        "found another end of a run on the graphics card than on the processor; expected the same; "
+        "use the processor (device cpu)");
   return static_cast<double>(walks.size()) / took.count();
 }
 

@@ -1,11 +1,14 @@
 // run/card/walk.h - one run of a plain leg as a block of bytes: machine, board and loop. The same
 // source is compiled for the processor and for graphics cards (kernel.cu), with the same bits.
 //
-//   loop.h            the loop                    world/flat_leg.h   the machine
-//   controllers/board.h  the low level            here  a table in place of the gait controller,
-//                                                       and the samples that are kept
-//
-// A plan that measures nothing is a table of commands, which is computed beforehand (plan_table.h).
+// clang-format off
+//   the loop             run/simulation/loop.h
+//   the machine          world/flat_leg.h
+//   the low level        run/controllers/board.h
+//   the gait controller  a table of its commands, computed before the run (plan_table.h): so the
+//                        plan must not depend on measured values
+//   the recorder         the samples and edges that are kept, here
+// clang-format on
 #pragma once
 
 #include <cstddef>
@@ -55,24 +58,24 @@ struct PackedEdge {
   }
 };
 
-// The memory for what is kept of the runs of one launch: of each sample some words of Shown, and
-// the edges. Number i of a run is at [i * runs + run], so that neighbouring runs write to
-// neighbouring places.
+// Memory for what is kept of the runs of one launch: some words of Shown for each sample, and the
+// edges. Word or edge number i of a run is at [i * runs + run], so that neighbouring threads write
+// to neighbouring addresses.
 struct Kept {
   const std::uint16_t* wanted = nullptr;  // words of Shown, ascending
   std::int32_t words = 0;                 // their number
-  std::int32_t samples = 0;               // room, for each run
-  std::int32_t edges = 0;                 // room, for each run; 0: no edges are kept
+  std::int32_t samples = 0;               // of each run, at most
+  std::int32_t edges = 0;                 // of each run, at most; 0: no edges are kept
   std::int64_t runs = 0;
   std::uint64_t* sample = nullptr;
   std::uint32_t* edge = nullptr;
 };
 
-// The commands of a plan, one for each period of the low level; the last one continues.
+// The commands of a plan, one for each period of the low level; the last one holds afterwards.
 struct CommandRows {
   const control::Command* row = nullptr;
   std::int64_t count = 0;
-  signals::Tick vents_at = std::numeric_limits<signals::Tick>::max();  // the plan has finished
+  signals::Tick vents_at = std::numeric_limits<signals::Tick>::max();  // the plan's end
 };
 
 // Inputs of all runs of a launch. The pointers are those of the memory where it runs.
@@ -114,14 +117,15 @@ struct CommandTable {
   bool finished() const noexcept { return has_finished; }
 };
 
+// One run. Copied as bytes.
 class Walk {
  public:
-  // Takes an experiment's machine and board at their start. It ends before the tick `last`; samples
-  // are taken every `sample_period` from `first_sample` on. `plan`: place of its commands among
-  // those of the launch.
+  // The run ends before the tick `last`; samples are taken every `sample_period` from
+  // `first_sample` on.
   struct Timing {
     signals::Tick last = 0, first_sample = 0, sample_period = 0;
   };
+  // Takes an experiment's machine and board at their start.
   Walk(const plant::FlatLeg& leg, const SingleBoard& low, const Timing& timing)
       : leg_(leg),
         low_(low),
@@ -130,7 +134,7 @@ class Walk {
         next_sample_(timing.first_sample),
         sample_period_(timing.sample_period) {}
 
-  // Takes the rows of its commands, which begin at this number among those of the launch.
+  // Takes the number of its commands, and the index of the first one in Launch::commands.
   void set_plan(std::int64_t first, const CommandRows& rows) noexcept {
     plan_ = first;
     table_ = {{nullptr, rows.count, rows.vents_at}, low_.period};
@@ -138,15 +142,16 @@ class Walk {
 
   // --- on the processor or a card ---
 
-  // Runs it to its end if it `begins`. meet(x) returns whether x holds for any run that is computed
-  // together with this one; each calls it equally often.
+  // Runs it to its end; not if `begins` is false. `number` is its index among the runs of the
+  // launch. The runs that are computed together call meet(x) at the same places; it returns whether
+  // x is true for any of them.
   template <class Meet>
   void run(const Launch& launch, std::int64_t number, bool begins, const Meet& meet) noexcept;
 
   // --- after the run ---
 
   // Return the board and the machine at the end, the first status that was not ok, the tick of the
-  // first sample, the number of samples and edges, and whether there was room for them.
+  // first sample, the number of samples and edges, and whether there was room for all of them.
   const Board& board() const noexcept { return low_.board; }
   const plant::FlatLeg& leg() const noexcept { return leg_; }
   signals::Status status() const noexcept { return loop_.status; }

@@ -8,14 +8,14 @@
 
 namespace sinew::run {
 
-// Runs all in batches of at most `most` runs (run/card/batch.h), which `launcher` computes. Other
-// runs are made in lanes on threads. If a launch fails, throws std::runtime_error, or if it
-// `continues` runs the others on the processor.
+// Options of runs in batches.
 struct InBatches {
   Launcher launcher;
-  std::size_t most = 1;
-  bool continues = false;
+  std::size_t most = 1;    // largest number of runs in a batch
+  bool continues = false;  // after a failed launch, on the processor
 };
+// Runs all in batches (run/card/batch.h); those that no batch can run, in lanes on threads. Throws
+// std::runtime_error if a launch fails and `continues` is false.
 void run_many_in_batches(const Many& many, const InBatches& how, int threads);
 
 }  // namespace sinew::run

@@ -1,5 +1,5 @@
-// run/ensemble/device.h - what runs the machines of an ensemble: the cores of the processor, or a
-// graphics card. The figures have the same bits.
+// run/ensemble/device.h - device that runs the machines of an ensemble: the cores of the processor,
+// or a graphics card. The figures have the same bits.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ struct Device {
   enum class Kind {
     automatic,  // a card where one is usable and the runs are so many that it is faster
     cpu,        // the processor
-    gpu,        // this card; runs that it does not hold are made by the processor
+    gpu,        // this card; the processor makes the runs that a card cannot
   };
   Kind kind = Kind::automatic;
   int number = 0;                   // number of the card, from 0
@@ -28,8 +28,8 @@ struct Device {
 // Parses "auto", "cpu", "gpu" or "gpu:1". Throws config::Error that begins with "device".
 Device parse_device(std::string_view text);
 
-// Returns the device with its card, and an automatic one as what it chooses: the first card if it
-// is usable, else the processor. Throws std::runtime_error if the device is a card that this
+// Returns the device with its card. An automatic one becomes the first usable card, else the
+// processor. Throws std::runtime_error if the device is a card that this
 // computer or this build cannot use.
 Device chosen(const Device& device);
 

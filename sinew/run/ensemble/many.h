@@ -31,24 +31,25 @@ struct Many {
   // Receives the results, in any order. Must not throw.
   std::function<void(std::size_t, RunResult)> done;
   int lanes = 8;  // largest number; 1: one after the other
-  // Return whether no further run is to be begun, and take a sentence for the user; may be absent.
+  // Returns whether to begin no further run. May be absent.
   std::function<bool()> stopped = {};
+  // Takes a sentence for the user. May be absent.
   std::function<void(const std::string&)> notice = {};
 };
 // Runs all in this thread (run/simulation/lanes.h). Each result has the wanted figures of the
 // same single run.
 void run_many(const Many& many);
 
-// Runs all, `runs` in number, on this chosen device (device.h): fewer than fewest_on_card only on a
-// card that was named. Runs that do not suit a card, or fail on it, use threads of the processor.
-// The results are those of run_many(). Throws std::runtime_error if a named card fails, and
-// WrongBits; where an automatic one fails, the processor continues, with a notice.
+// Runs all, `runs` in number, on a chosen device (device.h), with the results of run_many(). An
+// automatic card is used for fewest_on_card runs or more. Runs that a card cannot make, or that
+// fail on it, are made on threads of the processor. If an automatic card fails, the processor
+// continues, with a notice. Throws std::runtime_error if a named card fails, and WrongBits.
 void run_on(const Device& device, std::size_t runs, const Many& many, int threads);
 
-// Runs on an automatic card are at least this many: fewer are faster on the processor.
+// Fewer runs than this are faster on the processor than on a card.
 inline constexpr std::size_t fewest_on_card = 100;
 
-// Returns the lanes of each thread, at most `most`, so that all threads have runs.
+// Returns the number of lanes per thread, at most `most`, with which all threads have runs.
 int lanes_of(std::size_t runs, std::size_t threads, int most);
 
 // The ensembles of runs that are given as files with settings: runs that differ only in numbers

@@ -39,15 +39,15 @@ class DrivenMuscle {
   // The complete state.
   using State = plant::DrivenWorld::State;
 
-  // `length`: at the start [m]; `pressure`: of its air there, absolute [Pa]. Throws
-  // std::invalid_argument for a length at which the muscle has no volume for air.
+  // Takes the length [m] and the absolute pressure [Pa] at the start; without a pressure, that of
+  // the room. Throws std::invalid_argument for a length at which the muscle has no volume for air.
   DrivenMuscle(const Muscle& muscle, const gas::Air& air, const gas::Supply& supply, double length,
                double pressure);
   DrivenMuscle(const Muscle& muscle, const gas::Air& air, const gas::Supply& supply, double length)
       : DrivenMuscle(muscle, air, supply, length, air.atmosphere) {}
 
-  // Switch the current of the valves' coils. inlet() also switches a 3-way valve, which has no
-  // exhaust. Throw std::invalid_argument for a coil that the valves do not have.
+  // Switch the current of the valves' coils. A 3-way valve has one coil, which inlet() switches.
+  // Throw std::invalid_argument for a coil that the valves do not have.
   void inlet(bool on);
   void exhaust(bool on);
 
@@ -59,12 +59,12 @@ class DrivenMuscle {
   void advance(double step, double length) noexcept;
 
   // Returns the force on both ends [N]: static and viscous; never negative, since a tendon cannot
-  // push. A sensor between the muscle and its load measures up to friction() more while the muscle
-  // lengthens, and up to friction() less while it shortens. The caller decides whether it sticks.
+  // push. Dry friction is not in it.
   double tension() const noexcept { return state().first.air.tension[0]; }
-  double friction() const noexcept {
-    return state().first.air.friction_bound[0];
-  }  // bound of the dry part [N]
+  // Returns the largest dry friction [N]. A sensor between the muscle and its load measures up to
+  // this more than tension() while the muscle lengthens, and up to this less while it shortens. The
+  // caller's model decides whether the muscle sticks.
+  double friction() const noexcept { return state().first.air.friction_bound[0]; }
 
   double pressure() const noexcept { return state().first.air.pressure[0]; }  // absolute [Pa]
   double length() const noexcept { return world_.motion().length; }           // [m]
@@ -75,7 +75,7 @@ class DrivenMuscle {
   Account account() const noexcept { return world_.air().account(state().now.air, 0); }
   double air_mass() const noexcept { return world_.air_mass(); }
 
-  // Returns whether the state is not finite any more. It then no longer changes.
+  // Returns whether the state has become infinite or NaN; it then no longer changes.
   bool failed() const noexcept { return static_cast<bool>(world_.failure()); }
 
   // Return the state for copying, and continue from that of a muscle of equal description.
