@@ -140,11 +140,13 @@ export class ComparisonTables {
     const most = Math.max(...this.channel_rows.map((r) => r.size), 1e-300);
     for (const r of this.channel_rows) r.bar.style.width = `${(100 * r.size) / most}%`;
     const heads = ['channel', '', ...this.others.flatMap((i) =>
-      [element('span', {}, 'rms', element('span', { class: 'of-run' }, `, ${letter_of(i)} − A`)), 'of range', 'bias', 'at most', 'at', 'r', '']), ''];
+      [element('span', {}, 'rms', element('span', { class: 'of-run' }, `, ${letter_of(i)} − A`)), 'of range', 'bias', 'at most', 'at', 'correlation', '']), 'unit'];
     const sorted = by_size(this.channel_rows);
     const list = table('Differences of channels', heads, sorted.map((r) => r.row));
     list.classList.add('only-differing');
     this.mark_several(list);
+    const with_numbers = [0, 1, 2, 3, 5];  // of the columns of a run
+    list.querySelectorAll('thead th').forEach((th, i) => i > 1 && i < heads.length - 1 && with_numbers.includes((i - 2) % 7) && th.classList.add('number'));
     const same = this.data.channels.filter((c) => c.differences.every((d) => !d || d.same)).length;
     by_id('channels').append(
       heading('Channels', `${this.channel_rows.length} compared, ${same} with equal samples; the bar is rms divided by the range of values`),
@@ -169,7 +171,7 @@ export class ComparisonTables {
   channel_cells(channel, d, pair) {
     const rms = element('td', { class: 'number', 'data-pair': pair }), bias = cell('', 'number'), largest = cell('', 'number'), at = cell('', ''), note = cell(note_of(d), 'quiet');
     const share = cell(d && d.span > 0 && d.rms > 0 && d.meet !== 'held' ? `${number((100 * d.rms) / d.span)} %` : '', 'number');
-    const r = cell(d && typeof d.correlation === 'number' && !d.same ? d.correlation.toFixed(4) : '', 'number');
+    const r = cell(d && typeof d.correlation === 'number' && !d.same ? d.correlation.toFixed(4).replace('-', '−') : '', 'number');
     if (d && !d.same && d.at_s !== null && d.largest !== 0)
       at.append(button({ class: 'time' }, () => this.visit(`${channel.topic} ${channel.field}`, d.at_s), `${d.at_s.toFixed(3)} s`));
     return { d, rms, bias, largest, all: [rms, share, bias, largest, at, r, note] };

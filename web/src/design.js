@@ -1,7 +1,7 @@
 // Page of a design: its numbers with their intervals, plots, tables of all candidates, and remarks.
 import { Appearance } from './appearance.js';
 import { Charts } from './charts.js';
-import { by_id, chip, element, start_page } from './page.js';
+import { by_id, chip, element, start_page, with_code } from './page.js';
 import { cell, heading, table } from './tables.js';
 import { Units } from './units.js';
 
@@ -12,20 +12,20 @@ const label_of = (name, unit, units) => {
 // Returns a number with four digits.
 const digits = (value) => String(+value.toPrecision(4)).replace('-', '−');
 const list = (title, texts, kind) => texts.length
-  ? element('div', {}, element('h3', {}, title), element('ul', { class: 'warnings' }, ...texts.map((text) => element('li', { class: kind }, element('p', {}, text)))))
+  ? element('div', {}, element('h3', {}, title), element('ul', { class: 'warnings' }, ...texts.map((text) => element('li', { class: kind }, element('p', {}, ...with_code(text))))))
   : '';
 
 class DesignPage {
   constructor(run) {
     this.run = run;
     this.units = new Units(run.atmosphere);
-    by_id('title').textContent = run.title.charAt(0).toUpperCase() + run.title.slice(1);
+    by_id('title').replaceChildren(...with_code(run.title.charAt(0).toUpperCase() + run.title.slice(1)));
     by_id('about').textContent = '';
     by_id('facts').textContent = `Sinew ${run.version}`;
     this.values = element('div', {});
     const charts = element('div', {});
     by_id('result').append(heading('Result'),
-      run.refused ? element('p', { class: 'hint not-pinned' }, run.refused) : '',
+      run.refused ? element('p', { class: 'hint not-pinned' }, ...with_code(run.refused)) : '',
       this.values, charts, list('Warnings', run.warnings, ''), list('Remarks', run.notes, 'remark'),
       list('What this does not show', run.unseen, 'remark'));
     this.refresh();
@@ -42,12 +42,13 @@ class DesignPage {
   refresh() {
     const { run, units } = this;
     const shown = (value, unit) => (value === null ? '–' : digits(units.convert(value, unit)));
+    const has_bounds = run.values.some((v) => v.low !== null || v.high !== null);
+    const bounds = (v) => (has_bounds ? [v.low, v.high].map((x) => cell(x === null ? '' : shown(x, v.unit), 'number')) : []);
     const rows = run.values.map((v) => element('tr', { 'data-key': v.key, 'data-value': v.value },
       element('th', { scope: 'row', class: 'key' }, v.name), cell(shown(v.value, v.unit), 'number ours'),
       cell(units.of(v.unit).label, 'unit'),
-      cell(v.low === null ? '' : shown(v.low, v.unit), 'number'), cell(v.high === null ? '' : shown(v.high, v.unit), 'number'),
-      cell(v.note, 'source')));
-    this.values.replaceChildren(rows.length ? table('Values', ['', 'value', '', 'from', 'to', ''], rows) : '');
+      ...bounds(v), cell(v.note, 'source')));
+    this.values.replaceChildren(rows.length ? table('Values', ['', 'value', '', ...(has_bounds ? ['from', 'to'] : []), ''], rows) : '');
     const cells = (row, columns) => columns.map((c, i) =>
       typeof row[i] === 'string' ? cell(row[i], '') : cell(shown(row[i], c.unit), 'number'));
     by_id('tables').replaceChildren(...run.tables.filter((t) => t.rows.length).flatMap((t) => [heading(t.title, String(t.rows.length)),

@@ -8,6 +8,12 @@ export function element(tag, attributes, ...children) {
   return out;
 }
 
+// Returns a name that a line may break behind its dots and underscores.
+export const breakable = (name) => name.split(/(?<=[._])/).flatMap((part, i) => (i ? [element('wbr'), part] : [part]));
+
+// Returns a text whose parts in `back quotes` are code.
+export const with_code = (text) => text.split('`').map((part, i) => (i % 2 ? element('code', {}, part) : part));
+
 export const by_id = (id) => document.getElementById(id);
 
 // Returns a button that calls `does` with the event and the button.

@@ -1,6 +1,6 @@
 // Parallel coordinates: an axis for each column, a line for each row. A range drawn on an axis filters
 // every view.
-import { button, element } from './page.js';
+import { breakable, button, element } from './page.js';
 import { axis_of, coloring, outlined, picture_menu, Sheet, value_text } from './study_chart.js';
 import { number } from './units.js';
 
@@ -53,7 +53,7 @@ export class Parallel {
     this.columns = page.columns.filter((c) => this.shown.has(c));
     this.inner.style.minWidth = `${narrowest * this.columns.length}px`;
     this.names.replaceChildren(...this.columns.map((c) => element('div', { class: 'axis-name', title: c.heading },
-      element('b', {}, name_of(c)), c.unit ? ` ${c.unit}` : '')));
+      element('b', {}, ...breakable(name_of(c))), c.unit ? ` ${c.unit}` : '')));
     this.handles.replaceChildren(...this.columns.map((c, i) => this.handle(c, i)));
   }
 

@@ -1,5 +1,5 @@
 // Influence of the parameters as bars, the chosen row with its command, and the table of rows.
-import { button, element } from './page.js';
+import { breakable, button, element } from './page.js';
 import { value_text } from './study_chart.js';
 import { variance_share } from './study_math.js';
 import { chooser } from './study_views.js';
@@ -45,7 +45,7 @@ export class Importance {
     tick.style.left = `${100 * chance}%`;
     const none = share <= chance;
     return element('li', { 'data-heading': column.heading, 'data-share': share, class: none ? 'none' : null, title: `${rows} rows in ${bins} bins` },
-      element('span', { class: 'key' }, column.heading), element('span', { class: 'track' }, fill, tick),
+      element('span', { class: 'key' }, ...breakable(column.heading)), element('span', { class: 'track' }, fill, tick),
       element('b', {}, none ? `${percent(share)}, not significant` : percent(share)));
   }
 
@@ -158,7 +158,7 @@ export class RowTable {
     const heading = (words, column, title) => {
       const sorted = this.by === column;
       return element('th', { scope: 'col', 'aria-sort': sorted ? (this.down ? 'descending' : 'ascending') : null, class: !column || column.number ? 'number' : null },
-        button({ title }, () => this.sort(column), words, sorted ? (this.down ? ' ↓' : ' ↑') : ''));
+        button({ title }, () => this.sort(column), ...breakable(words), sorted ? (this.down ? ' ↓' : ' ↑') : ''));
     };
     this.head.replaceChildren(element('tr', {}, heading('row', null, 'The order of rows'), ...this.page.columns.map((c) => heading(c.heading, c, `Sort by ${c.heading}`))));
   }
