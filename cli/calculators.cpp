@@ -249,7 +249,7 @@ void add_actuator(CLI::App& app, Action& action) {
   sub.add_option("--length", options.length, "QUANTITY: length, or from:to:step")->required();
   sub.add_option("--pressure", options.pressure, "QUANTITY: pressure, or from:to:step")->required();
   sub.add_option("--velocity", options.velocity,
-                 "QUANTITY: velocity, below 0 while contracting; adds losses to the tension, [33]");
+                 "QUANTITY: velocity, below 0 while contracting; adds the losses of equation 33");
   sub.add_option("--name", options.name, "NAME: actuator, where the file has several");
   sub.add_option("--external-volume", options.external_volume,
                  "QUANTITY: volume of hose and fittings, for stiffness at shut valves; default: 0");
@@ -269,9 +269,11 @@ void add_valve(CLI::App& app, Action& action) {
   sub.add_option("--downstream", options.downstream, "QUANTITY: pressure behind it")->required();
   CLI::Option* volume =
       sub.add_option("--volume", options.volume, "QUANTITY: rigid volume to fill and to vent");
-  CLI::Option* walls = sub.add_option("--wall-time", options.wall_time,
-                                      "QUANTITY: time constant of the heat between air and walls; "
-                                      "default: both limits, or the file's");
+  CLI::Option* walls =
+      sub.add_option("--wall-time", options.wall_time,
+                     "QUANTITY: time constant of the heat exchange with the walls; "
+                     "default: the file's, else results without and with full "
+                     "exchange");
   walls->needs(volume);
   sub.add_option("--exponent", options.exponent, "polytropic exponent, as in a muscle's file")
       ->needs(volume)
@@ -285,7 +287,7 @@ void add_valve(CLI::App& app, Action& action) {
 
 void add_kinematics(CLI::App& app, Action& action) {
   CLI::App& sub = subcommand(app, "kinematics",
-                             "Convert foot to joint angles, muscle lengths, torques, and back",
+                             "Convert foot positions to joint angles, lengths and torques, or back",
                              "sinew kinematics robots/leg/robot.toml --foot \"-2 in, -13 in\" "
                              "--force \"0 lbf, -20 lbf\"");
   KinematicsOptions& options = runs(sub, action, run_kinematics);
@@ -293,10 +295,11 @@ void add_kinematics(CLI::App& app, Action& action) {
   sub.add_option("--leg", options.leg, "NAME: leg of a robot that has several");
   CLI::App& target = alternatives(sub, "target");
   target.add_option("--foot", options.request.foot,
-                    "X,Y: foot position from the first joint; gives all ways to stand there");
+                    "X,Y: position of the foot relative to the first joint; gives all joint angles "
+                    "that reach it");
   target.add_option("--angles", options.request.angles, "ANGLES: one per joint, in robot order");
   sub.add_option("--force", options.request.force,
-                 "X,Y: force with which the foot pushes; gives the joints' torques, [71]");
+                 "X,Y: force with which the foot pushes; gives the joints' torques");
   add_units(sub, options.units, "printed numbers (default: those of the robot's file)");
   sub.add_flag("--json", options.json, "print the result as JSON, in SI");
 }

@@ -31,7 +31,7 @@ constexpr DesignHelp designs[] = {
     {"joint",
      "sinew design joint --actuator robots/leg/actuator.toml --torque \"20 lbf in\" --angles "
      "\"40 deg\" --motion \"80 deg\" --pressure \"100 psi gauge\" --moment-arm \"1 in\"",
-     "FILE: robot file to write, over that of --base"},
+     "FILE: robot file to write: that of --base with the new values"},
     {"valve",
      "sinew design valve --volume \"50 mL\" --supply \"6 bar gauge\" --pressure \"4 bar gauge\" "
      "--fill-time \"100 ms\" --frequency \"50 Hz\""},

@@ -224,7 +224,8 @@ void add_figures(CLI::App& app, Action& action) {
   sub.add_option("--format", options->formats, "FORMAT: pdf, svg, png or csv; default: svg,png")
       ->allow_extra_args(false);
   add_options_of_runs(sub, *options, thesis);
-  add_flags(sub, *options, "replace existing figures", "print index.json, for runs all of them");
+  add_flags(sub, *options, "replace existing figures",
+            "print index.json; of several runs, each one");
   sub.callback([=, &action] {
     if (!options->thesis && options->runs.empty())
       require("DIR", "the folder of a run, or --thesis in its place");

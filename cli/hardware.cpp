@@ -253,7 +253,7 @@ void add_doctor(CLI::App& app, Action& action) {
                              "sinew doctor --for comedi");
   DoctorOptions& options = runs(sub, action, examine);
   sub.add_option("--for", options.place,
-                 "kind of place to drive; exits with 1 if something that it needs is missing")
+                 "kind of port to drive; exits with 1 if something that it needs is missing")
       ->check(one_of({"simulated", "serial", "emulated", "comedi"}))
       ->capture_default_str();
   sub.add_flag("--json", options.json, "print the findings as JSON");

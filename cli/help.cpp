@@ -68,6 +68,31 @@ std::string wrapped(std::string_view text, std::size_t indent) {
   return out + "\n";
 }
 
+// Returns examples, a line each, in lines that fit a terminal: a longer one breaks before an
+// option, as a shell reads it. A line of a file or a pipe stays whole.
+std::string folded(std::string_view examples) {
+  std::istringstream in{std::string(examples)};
+  std::string out;
+  for (std::string line; std::getline(in, line);) {
+    const auto start = line.find_first_not_of(' ');
+    std::size_t at = 2;
+    for (std::size_t begin = start, end = 0; begin < line.size(); begin = end) {
+      end = std::min(std::min(line.find(" -o ", begin + 1), line.find(" --", begin + 1)),
+                     line.size());
+      const std::string_view part = std::string_view(line).substr(begin, end - begin);
+      if (width_of_output() > 0 && begin > start && at + letters(part) + 2 > width()) {
+        out += " \\\n   ";
+        at = 3;
+      }
+      if (begin == start) out += "  ";
+      out += part;
+      at += letters(part);
+    }
+    out += "\n";
+  }
+  return out;
+}
+
 // A title and its description, in two columns.
 struct HelpRow {
   std::string title, words;
@@ -245,7 +270,7 @@ std::string help_of(const CLI::App& command) {
     rows.push_back({sub->get_name(), sub->get_description()});
   if (!rows.empty()) out += "\nCommands:\n" + table(rows);
   out += section(command, "Arguments:\n", false) + section(command, "Options:\n", true);
-  return out + names_of_table_options(command) + "\nExample:\n  " + command.get_footer() + "\n";
+  return out + names_of_table_options(command) + "\nExample:\n" + folded(command.get_footer());
 }
 
 // --- sinew help ---

@@ -145,8 +145,10 @@ void add_second_file(CLI::App& sub, const Settings&, std::string& file) {
   if constexpr (std::is_same_v<Settings, identify::JointSettings>)
     sub.add_option("--actuator-out", file, "FILE: actuator file to write");
   if constexpr (std::is_same_v<Settings, identify::ValveSettings>)
-    sub.add_option("--predict-dat", file,
-                   "FILE: the duties' opening and closing ticks, compensated for the delays");
+    sub.add_option(
+        "--predict-dat", file,
+        "FILE: predict.dat to write: ticks at which the valve opens and shuts for each duty, "
+        "compensated for the delays");
 }
 
 // Refuses options that do not go together, as wrong usage.

@@ -448,7 +448,8 @@ void add_replay(CLI::App& app, Action& action) {
   sub.add_option("DIR", options.request.run, "run folder or log file")->required();
   sub.add_option(
          "--of", options.of,
-         "controller: fed with readings; plant: fed with valve commands; default: controller")
+         "part that runs again: the controller, with the recorded readings, or the plant, with the "
+         "recorded valve commands; default: controller")
       ->check(one_of({"controller", "plant"}));
   add_machine(sub, options.request.machine);
   add_sets(sub, options.request.sets);

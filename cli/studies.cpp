@@ -137,8 +137,10 @@ std::string mistake_of_device(const std::string& text) {
 void add_keeping(CLI::App& sub, RunsOptions& options) {
   sub.add_option("--threads", options.threads, "runs at a time; default: one per processor")
       ->transform(between(1, 1024));
-  sub.add_option("--device", options.device,
-                 "auto, cpu, gpu or gpu:N: cores or a graphics card; the table is the same")
+  sub.add_option(
+         "--device", options.device,
+         "DEVICE: what makes the runs: cpu, gpu, gpu:N (a graphics card) or auto; the table is the "
+         "same")
       ->transform(passes(mistake_of_device))
       ->capture_default_str();
   sub.add_option("--results", options.results,
@@ -148,9 +150,12 @@ void add_keeping(CLI::App& sub, RunsOptions& options) {
 // --range, --set, --report, --units, --allow-unreachable, --threads, --device and --results.
 void add_runs(CLI::App& sub, tune::Study& study, RunsOptions& options) {
   add_words(sub, "--range", study.range,
-            "KEY=RANGE: range to sample, from:to unit; \"log\" or \"whole\" may follow the unit");
+            "KEY=RANGE: range to sample, \"1:5 lbf\"; behind it, \"log\" spreads the points evenly "
+            "in the "
+            "logarithm, \"whole\" takes whole numbers only");
   add_words(sub, "--report", study.report,
-            "KEYS: keys of summary.json with commas, key or key [unit]; default: reported ones");
+            "KEYS: keys of summary.json, separated by commas, each with or without a unit: "
+            "\"duration_s [min]\"; default: those of its [[reported]] entries");
   add_units(sub, study.units, "figures without a unit of their own (default: si); --json is in SI");
   add_sets(sub, study.set);
   sub.add_flag("--allow-unreachable", study.allow_unreachable, "accept unreachable foot paths");
@@ -207,7 +212,7 @@ ExitCode sweep_all(const SweepOptions& options) {
 
 void add_sample(CLI::App& sub, SweepOptions& options) {
   sub.add_option("--points", options.study_options.study.points,
-                 "number of points of the sample, each of which is a row or more")
+                 "number of points of the sample; each is one row, or with --seeds several")
       ->transform(between(1, 1000000));
   sub.add_option("--sample", options.study_options.sample,
                  "how the points of the sample are spread; default: sobol")
@@ -406,8 +411,10 @@ void add_sweep(CLI::App& app, Action& action) {
       "sinew sweep experiments/leg-in-air.toml --vary \"joint.hip.angle_gain=0.02:0.1:5 %/count\" "
       "--report \"joints.hip.tracking_rms_rad [deg]\" -o gain.csv");
   sub.add_option("FILE", options->file, "experiment file, or plan of a sweep")->required();
-  add_words(sub, "--vary", options->study_options.study.vary,
-            "KEY=VALUES: values, a,b,c unit or from:to:count unit; repeated: all combinations");
+  add_words(
+      sub, "--vary", options->study_options.study.vary,
+      "KEY=VALUES: values of a key, \"1,2,5 lbf\" or from:to:count with a unit; if repeated, all "
+      "combinations");
   add_runs(sub, options->study_options.study, options->runs);
   sub.add_option("--shard", options->runs.shard,
                  "I/N: run only every N-th point, from the I-th on; sinew merge joins the files")
@@ -439,9 +446,10 @@ void add_tune(CLI::App& app, Action& action) {
   sub.add_option("FILE", options.file, "tuning file; see docs/how-to/studies.md")->required();
   add_sets(sub, options.sets);
   add_keeping(sub, options.runs);
-  sub.add_option("--generations", options.generations, "generations, in place of the file's")
+  sub.add_option("--generations", options.generations,
+                 "number of generations, in place of the file's")
       ->transform(between(1, 100000));
-  sub.add_option("--best", options.best, "FILE: also write the best candidate as this experiment");
+  sub.add_option("--best", options.best, "FILE: experiment file to write, with the best candidate");
   sub.add_option("--candidate", options.candidate, "candidate for --best; default: the best one")
       ->transform(between(0, 1000000))
       ->needs(sub.get_option("--best"));
@@ -453,7 +461,7 @@ void add_tune(CLI::App& app, Action& action) {
 void add_sensitivity(CLI::App& app, Action& action) {
   auto options = std::make_shared<SensitivityOptions>();
   CLI::App& sub = subcommand(
-      app, "sensitivity", "Rank ranges of values by how strongly each figure depends on them",
+      app, "sensitivity", "Rank keys by how strongly each figure depends on their ranges",
       "sinew sensitivity experiments/walk-test-1.toml --range \"joint.hip.angle_gain=0.02:0.08 "
       "%/count\" --range \"air.supply.pressure=70:90 psi gauge\" --report \"trolley.distance_m "
       "[in]\"");
@@ -463,9 +471,11 @@ void add_sensitivity(CLI::App& app, Action& action) {
                  "sobol: shares of the variance; morris: effects along paths; ends: effects of "
                  "both ends of one range at a time; default: sobol")
       ->check(one_of({"sobol", "morris", "ends"}));
-  sub.add_option("--points", options->points,
-                 "for sobol: number of rows of ranges + 2 runs, a power of two (default: 256); for "
-                 "morris: number of paths of ranges + 1 runs (default: 20)")
+  sub.add_option(
+         "--points", options->points,
+         "sobol: a power of two; each point has as many runs as there are ranges, and 2 more "
+         "(default: 256); morris: number of paths, each with one run more than there are "
+         "ranges (default: 20)")
       ->transform(between(2, 1000000));
   sub.add_option("--sample-seed", options->seed, "seed of the sample; default: 1")
       ->transform(between(0, 2147483647));
@@ -484,7 +494,9 @@ void add_merge(CLI::App& app, Action& action) {
   MergeOptions& options = runs(sub, action, merge_all);
   sub.add_option("FILE", options.files, "files of sinew sweep --results, each of another --shard")
       ->required();
-  sub.add_option("-o,--output", options.out, "FILE: all rows; created or extended")->required();
+  sub.add_option("-o,--output", options.out,
+                 "FILE: study file for all rows; it is created, or extended")
+      ->required();
 }
 
 }  // namespace sinew::cli

@@ -155,7 +155,7 @@ void add_pairs(const CLI::App& command, Problems& out) {
     for (const CLI::Option* other : option->get_needs())
       if (other->count() == 0)
         add(out, option->get_name(), "no " + other->get_name() + " with it",
-            other->get_name() + " too: " + meaning_of(*other));
+            other->get_name() + " " + meaning_of(*other));
   }
 }
 

@@ -349,9 +349,7 @@ void Reader::refuse_unused(const Node& child, const std::string& path,
   if (const KeyChange* removed = removed_key(path, *options_.changes))
     return add_problem(child, path, "a key that is gone", expected,
                        replacement_text(*removed, path));
-  const std::string_view near = closest(child.key, known);
-  add_problem(child, path, "an unknown key", expected,
-              near.empty() ? "" : fmt::format("{}; did you mean that?", near));
+  add_problem(child, path, "an unknown key", expected, std::string(closest(child.key, known)));
 }
 
 void Reader::find_unused(const Node& table, const std::string& path) {

@@ -259,8 +259,8 @@ TEST(Reader, AChoiceListsItsWords) {
 TEST(Reader, AnUnknownKeyGetsASuggestion) {
   EXPECT_TRUE(contains(Reading("length = \"1 m\"\nstifness = \"1 N/m\"").message,
                        "a.toml:2:1: stifness: found an unknown key; expected "));
-  EXPECT_TRUE(contains(Reading("length = \"1 m\"\nstifness = \"1 N/m\"").message,
-                       "; try stiffness; did you mean that?"));
+  EXPECT_TRUE(
+      contains(Reading("length = \"1 m\"\nstifness = \"1 N/m\"").message, "; try stiffness"));
   EXPECT_TRUE(contains(Reading("length = { value = \"1 m\", sorce = \"x\" }").message,
                        "length.sorce: found an unknown key"));
 }
@@ -275,7 +275,7 @@ TEST(Reader, AnUnknownKeyHasItsPathInTablesAndLists) {
   EXPECT_THROW(reader.finish(), Error);
   const std::string text = to_text(reader.problems());
   EXPECT_TRUE(contains(text, "a.toml:3:1: spring.a.lenght: found an unknown key")) << text;
-  EXPECT_TRUE(contains(text, "try length; did you mean that?"));
+  EXPECT_TRUE(contains(text, "try length"));
   EXPECT_TRUE(contains(text, "a.toml:6:1: test[0].cuont: found an unknown key")) << text;
 }
 

@@ -161,8 +161,8 @@ void add_values(Result& out, const Candidate& c, const JointTask& task, const ga
        "both muscles"});
   add({"torque_Nm", "weakest torque", c.weakest.torque.value, "N m", c.weakest.torque.low,
        c.weakest.torque.high,
-       fmt::format("at {:.3g} deg from the middle; interval of the force: 95 %",
-                   c.weakest.angle / units::degree)});
+       fmt::format("at {:.3g} deg from the middle{}", c.weakest.angle / units::degree,
+                   std::isnan(c.weakest.torque.low) ? "" : "; interval of the force: 95 %")});
   add({"torque_margin", "torque margin", c.weakest.torque.value / percent - 1, "1",
        c.weakest.torque.low / percent - 1, c.weakest.torque.high / percent - 1});
   add({"motion_rad", "range of motion", c.motion, "rad", unknown, unknown, "without a load"});

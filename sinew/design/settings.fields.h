@@ -13,7 +13,7 @@ namespace sinew::design {
 
 using config::Setting;
 
-constexpr config::Range part_length = config::above_zero(10, "of a part of a robot");
+constexpr config::Range part_length = config::above_zero(10, "no part of a robot is longer");
 
 // --- joint ---
 
@@ -32,25 +32,29 @@ template <class Visitor>
 void fields(Visitor& v, JointSettings& s) {
   constexpr config::Range turn =
       config::above_zero(2 * std::numbers::pi, "a joint turns less than once");
-  v.method({"joint", "Choose number, length and moment arm of the muscles of a joint",
-            config::Tables::none});
+  v.method(
+      {"joint", "Choose number, length and moment arm of a joint's muscles", config::Tables::none});
   v.file(Setting{"actuator", "actuator file of the muscle"}.required(), s.actuator);
   v.text({"name", "name of the actuator, where the file has several"}, s.name);
   v.text({"rest_length",
-          "QUANTITY: rest length, or from:to:step of a family: the file's muscle is scaled; "
+          "QUANTITY: rest length, or several as from:to:step: the file's muscle is scaled to it; "
           "default: the file's own"},
          s.rest_length);
   v.quantity({"torque", "torque in both directions, at each of the angles", "N m",
-              config::above_zero(1e5, "of a joint")},
+              config::above_zero(1e5, "no joint of a robot has more")},
              s.torque);
-  v.quantity({"load", "mass at the lever, in place of the torque: its weight at a horizontal lever",
-              "kg", config::above_zero(1e4, "on a joint")},
-             s.load);
-  v.quantity({"lever", "distance from the joint to the load", "m", part_length}, s.lever);
+  v.quantity(
+      {"load",
+       "mass at the end of a lever, in place of the torque: its torque is that with a level lever",
+       "kg", config::above_zero(1e4, "no joint carries more")},
+      s.load);
+  v.quantity(
+      {"lever", "length of that lever: distance from the joint to the load", "m", part_length},
+      s.lever);
   v.quantity({"time",
               "time of a stroke over the angles: adds the torque that speeds up the load and "
               "slows it down",
-              "s", config::above_zero(3600, "of a stroke")},
+              "s", config::above_zero(3600, "no stroke takes longer")},
              s.time);
   v.quantity(
       Setting{"angles", "range of angles over which the torque is needed", "rad", turn}.required(),
@@ -67,8 +71,9 @@ void fields(Visitor& v, JointSettings& s) {
           "QUANTITY: radius of the cam or length of the lever, or from:to:step; default: twelve "
           "that allow the motion"},
          s.moment_arm);
-  v.integer({"most", "largest number of muscles side by side", "", {1, 100, "side by side"}},
-            s.most);
+  v.integer(
+      {"most", "largest number of muscles side by side", "", {1, 100, "no more fit side by side"}},
+      s.most);
   v.quantity(
       {"external_volume", "volume of hose and fittings of one muscle", "m3", config::air_volume},
       s.external_volume);
@@ -101,7 +106,9 @@ void volume_fields(Visitor& v, ValveSettings& s) {
   v.quantity({"contracted_length", "length of the filled muscle; default: it does not move", "m",
               part_length},
              s.contracted_length);
-  v.integer({"count", "muscles side by side at the valve", "", {1, 100, "side by side"}}, s.count);
+  v.integer(
+      {"count", "muscles side by side at the valve", "", {1, 100, "no more fit side by side"}},
+      s.count);
   v.quantity(
       {"external_volume", "volume of hose and fittings up to the valve", "m3", config::air_volume},
       s.external_volume);
@@ -113,7 +120,7 @@ void volume_fields(Visitor& v, ValveSettings& s) {
 // Visits the rows of a valve that is judged together with those of the catalogue.
 template <class Visitor>
 void given_valve_fields(Visitor& v, ValveSettings& s) {
-  constexpr config::Range delay = config::from_zero(1, "of a valve's shutter");
+  constexpr config::Range delay = config::from_zero(1, "no valve is slower");
   v.quantity({"critical_ratio", "critical pressure ratio b of ISO 6358-1, where flow needs one",
               "1", config::from_zero(0.999, "a share of the upstream pressure")},
              s.critical_ratio);
@@ -133,9 +140,9 @@ template <class Visitor>
 void fields(Visitor& v, ValveSettings& s) {
   constexpr config::Range gauge = {-units::atmosphere, config::greatest_pressure,
                                    config::air_pressure.why};
-  constexpr config::Range time = config::above_zero(3600, "of filling a muscle");
+  constexpr config::Range time = config::above_zero(3600, "no muscle fills more slowly");
   constexpr config::Range duty = config::above_zero(1, "a share of the period");
-  v.method({"valve", "Choose valves for a muscle: flow for a time, delays for pulses",
+  v.method({"valve", "Find the flow and delays that a muscle needs, and valves that have them",
             config::Tables::none});
   volume_fields(v, s);
   v.quantity(Setting{"supply", "pressure of the supply", "Pa gauge", gauge}.required(), s.supply);
@@ -159,7 +166,7 @@ void fields(Visitor& v, ValveSettings& s) {
 
 // --- air ---
 
-// Duration of a store of air.
+// Time for which a bottle, a tank or a compressor lasts.
 struct AirSettings {
   std::string use;
   std::string volume, pressure, mass, line, lowest;
@@ -175,13 +182,14 @@ template <class Visitor>
 void fields(Visitor& v, AirSettings& s) {
   constexpr config::Range stored = config::above_zero(
       gas::highest_stored_pressure - units::atmosphere, "compressibilities are known up to it");
-  constexpr config::Range weight = config::above_zero(1e4, "on a robot");
+  constexpr config::Range weight = config::above_zero(1e4, "no robot carries more");
   v.method({"air", "Find how long a bottle, a tank or a compressor lasts", config::Tables::none});
-  v.file(Setting{"use",
-                 "consumption: folder of a run or its summary.json, table of a sweep, or file with "
-                 "an actuator"}
-             .required(),
-         s.use);
+  v.file(
+      Setting{"use",
+              "source of the consumption: folder of a run or its summary.json, table of a sweep, "
+              "or file with an actuator"}
+          .required(),
+      s.use);
   v.quantity({"volume", "volume of the bottle or tank", "m3",
               config::above_zero(config::air_volume.high, config::air_volume.why)},
              s.volume);
@@ -190,14 +198,14 @@ void fields(Visitor& v, AirSettings& s) {
   v.quantity({"line", "set pressure of the regulator; default: that of the run or the muscle",
               "Pa gauge", stored},
              s.line);
-  v.quantity({"lowest", "pressure in the line at which the robot stops; default: the line's",
+  v.quantity({"lowest", "pressure in the line below which the robot stops; default: that of line",
               "Pa gauge", stored},
              s.lowest);
-  v.quantity({"droop", "fall of the regulator's pressure at the flow droop_flow", "Pa diff",
-              config::above_zero(config::greatest_pressure, "of a regulator")},
+  v.quantity({"droop", "fall of the regulator's pressure when air flows", "Pa diff",
+              config::above_zero(config::greatest_pressure, "no regulator falls further")},
              s.droop);
-  v.quantity({"droop_flow", "flow of free air at which the regulator falls by droop", "m3/s",
-              config::above_zero(1, "of a regulator")},
+  v.quantity({"droop_flow", "flow of free air at which it falls that far", "m3/s",
+              config::above_zero(1, "no regulator passes more")},
              s.droop_flow);
   v.texts(Setting{"compressor",
                   "POINT: \"100 psi gauge, 6.2 L/min, 120 W\": pressure, free flow and electrical "
@@ -206,18 +214,22 @@ void fields(Visitor& v, AirSettings& s) {
           s.compressor);
   v.quantity({"compressor_mass", "mass of the compressor", "kg", weight}, s.compressor_mass);
   v.text({"name", "name of the actuator, where the file has several"}, s.name);
-  v.integer(
-      {"muscles", "number of muscles that are filled in each cycle", "", {0, 10000, "of a robot"}},
-      s.muscles);
-  v.quantity(
-      {"cycles", "fillings of each muscle per time", "Hz", config::above_zero(1000, "of a muscle")},
-      s.cycles);
+  v.integer({"muscles",
+             "number of muscles that are filled in each cycle",
+             "",
+             {0, 10000, "no robot has more"}},
+            s.muscles);
+  v.quantity({"cycles", "fillings of each muscle per time", "Hz",
+              config::above_zero(1000, "no muscle works faster")},
+             s.cycles);
   v.quantity({"length", "length of a vented muscle; default: its rest length", "m", part_length},
              s.length);
-  v.quantity(
-      {"contraction", "contraction of a full muscle, of that length", "1", {0, 0.5, "of a braid"}},
-      s.contraction);
-  v.quantity({"muscle_pressure", "pressure of a full muscle; default: the line's", "Pa gauge",
+  v.quantity({"contraction",
+              "contraction of a full muscle, as a share of that length",
+              "1",
+              {0, 0.5, "no braid contracts further"}},
+             s.contraction);
+  v.quantity({"muscle_pressure", "pressure of a full muscle; default: that of line", "Pa gauge",
               config::above_zero(config::greatest_pressure, config::air_pressure.why)},
              s.muscle_pressure);
   v.quantity(
@@ -246,23 +258,24 @@ void fields(Visitor& v, LifeSettings& s) {
       {"made", "kind of the muscle's ends, in place of [life]: published tests of such muscles"},
       s.made, {"clamped", "swaged"});
   v.quantity(Setting{"contraction", "range of contraction in a cycle, of the stretched length", "1",
-                     config::above_zero(0.5, "of a braid")}
+                     config::above_zero(0.5, "no braid contracts further")}
                  .required(),
              s.contraction);
   v.quantity({"pressure", "largest pressure in a cycle", "Pa gauge",
               config::above_zero(config::greatest_pressure, config::air_pressure.why)},
              s.pressure);
   v.quantity(Setting{"cycles", "cycles of each muscle per time, while the robot moves", "Hz",
-                     config::above_zero(1000, "of a muscle")}
+                     config::above_zero(1000, "no muscle works faster")}
                  .required(),
              s.cycles);
   v.quantity({"duty", "share of the time in which the robot moves", "1",
               config::above_zero(1, "of the time")},
              s.duty);
-  v.integer({"muscles", "number of muscles of the robot", "", {1, 10000, "of a robot"}}, s.muscles);
+  v.integer({"muscles", "number of muscles of the robot", "", {1, 10000, "no robot has more"}},
+            s.muscles);
   v.quantity(
       {"duration", "time that the robot is to last: gives the probability that no muscle fails",
-       "s", config::above_zero(1e9, "of a robot")},
+       "s", config::above_zero(1e9, "no robot lasts longer")},
       s.duration);
 }
 

@@ -98,7 +98,10 @@ template <class Visitor>
 void fields(Visitor& v, DynamicSettings& s) {
   v.method(
       {"dynamic", "Find viscous loss and dry friction from a mass that swings on trapped air"});
-  v.file(Setting{"actuator", "file of braid, tension and ends, as a start"}.required(), s.actuator);
+  v.file(
+      Setting{"actuator", "actuator file whose braid, tension law and ends the search starts from"}
+          .required(),
+      s.actuator);
   v.text({"name", "name of the actuator, where the file has several"}, s.name);
   v.quantities(Setting{"mass", "mass that moves; one, or one per file with commas", "kg",
                        config::above_zero(1e6, "hangs on the muscle")}
@@ -190,7 +193,9 @@ template <class Visitor>
 void fields(Visitor& v, JointSettings& s) {
   v.method({"joint", "Find force law and moment arm from joint angle, pressures and a known load",
             Tables::needed, joint_models().size()});
-  v.file(Setting{"actuator", "file with the braid, as a start"}.required(), s.actuator);
+  v.file(
+      Setting{"actuator", "actuator file with the braid, from which the search starts"}.required(),
+      s.actuator);
   v.text({"name", "name of the actuator, where the file has several"}, s.name);
   v.integer({"count", "actuators in parallel in a muscle", "", {1, 100, "actuators in parallel"}},
             s.count);
@@ -285,8 +290,7 @@ void fields(Visitor& v, ValveSettings& s) {
              s.temperature);
   v.hold_out({"hold_out", "file of another filling, which scores the model"}, s.hold_out);
   v.text({"name", "name of the valve"}, s.name);
-  v.file({"base",
-          "valves file with a valve of that name, from which all is kept that is not identified"},
+  v.file({"base", "valves file with a valve of that name: what is not identified is taken from it"},
          s.base);
   v.quantity({"frequency",
               "frequency of the pulses, for a map of duties without such a column and for the "
@@ -327,8 +331,8 @@ void table_fields(Visitor& v, StaticSettings& s) {
   v.texts({"fit_where", "NAME=VALUE,...: fit only rows with these values and hold out the others"},
           s.fit_where);
   v.hold_out({"hold_out",
-              "data that score and are not fitted: pressure (every second one), length or muscle "
-              "(each once), or another file"},
+              "data that are not fitted but predicted: pressure (every second one), length or "
+              "muscle (each in turn), or another file"},
              s.hold_out);
   v.quantity({"diameter",
               "diameter of the air in the muscle without pressure and load; gives its volume, with "
@@ -545,11 +549,12 @@ struct TransducerSettings {
 template <class Visitor>
 void fields(Visitor& v, TransducerSettings& s) {
   // A value beyond these limits has a wrong unit.
-  constexpr config::Range size = config::above_zero(10, "of a transducer");
+  constexpr config::Range size = config::above_zero(10, "no transducer is larger");
   constexpr config::Range stress = config::above_zero(1e13, "diamond has 1.2e12 N/m2");
-  constexpr config::Range voltage = config::above_zero(1000, "of an instrument");
+  constexpr config::Range voltage = config::above_zero(1000, "no instrument has more");
   v.method({"force-beam",
-            "Compute strain, safety and output of a beam with strain gages; default: the thesis's",
+            "Compute strain, safety and output of a beam with strain gages; default: the "
+            "thesis's beam",
             Tables::none});
   v.quantity({"length", "distance from the load to the mount", "m", size}, s.length);
   v.quantity({"width", "width of the beam", "m", size}, s.width);
