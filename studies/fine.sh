@@ -20,7 +20,7 @@ fine() {  # fine PLAN LINE
 while IFS='|' read -r plan values; do
   [[ $# -lt 2 || " ${*:2} " == *" $plan "* ]] || continue
   fine "$plan" "$values" >"$folder/$plan.toml"
-  "$sinew" sweep "$folder/$plan.toml" -o "$folder/$plan.csv" --threads "${THREADS:-0}" --quiet --force
+  "$sinew" sweep "$folder/$plan.toml" -o "$folder/$plan.csv" ${THREADS:+--threads "$THREADS"} --quiet --force
 done <<END
 range-stiffness|vary = ["control.stiffness.hip=5:75:1500 lbf in/rad"]
 table-height|vary = ["ground.height=-14.5:-12.5:900 in"]

@@ -9,7 +9,7 @@ sinew=${SINEW:-build/release/bin/sinew} folder=${1:-build/random-legs} out=docs/
 [[ -x $sinew ]] || { echo "random-legs.sh: found no program $sinew; build it with ./demo, or name it by SINEW" >&2; exit 1; }
 mkdir -p "$folder"
 legs=$folder/legs.csv
-[[ -f $legs ]] || "$sinew" sweep studies/random-legs.toml --results "$folder/legs.db" --threads "${THREADS:-0}" -o "$legs"
+[[ -f $legs ]] || "$sinew" sweep studies/random-legs.toml --results "$folder/legs.db" ${THREADS:+--threads "$THREADS"} -o "$legs"
 
 # Prints the number of the column whose name begins so.
 column() { head -1 "$legs" | tr ',' '\n' | grep -n -F "$1" | head -1 | cut -d: -f1; }
