@@ -86,7 +86,7 @@ void refuse_twice(const Sweep& s) {
   std::vector<std::string> seen;
   const auto take = [&](const Axis& axis) {
     if (std::ranges::find(seen, axis.key) != seen.end())
-      config::fail({axis.key, 0, 0}, "", "given twice", "once, in a range or in vary");
+      config::fail({axis.key, 0, 0}, "", "it given twice", "it once, in a range or in vary");
     seen.push_back(axis.key);
   };
   if (s.sample)
