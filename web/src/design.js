@@ -22,7 +22,7 @@ class DesignPage {
     by_id('title').replaceChildren(...with_code(run.title.charAt(0).toUpperCase() + run.title.slice(1)));
     by_id('about').textContent = '';
     by_id('facts').textContent = `Sinew ${run.version}`;
-    this.values = element('div', {});
+    this.values = element('div', { class: 'values' });
     const charts = element('div', {});
     by_id('result').append(heading('Result'),
       run.refused ? element('p', { class: 'hint not-pinned' }, ...with_code(run.refused)) : '',
