@@ -43,11 +43,11 @@ void fields(Visitor& v, JointSettings& s) {
   v.quantity({"torque", "torque in both directions, at each of the angles", "N m",
               config::above_zero(1e5, "no joint of a robot has more")},
              s.torque);
-  v.quantity(
-      {"load",
-       "mass at the end of a lever, in place of the torque: its torque is that with a level lever",
-       "kg", config::above_zero(1e4, "no joint carries more")},
-      s.load);
+  v.quantity({"load",
+              "mass at the end of a lever, in place of the torque: that of its weight while the "
+              "lever is level",
+              "kg", config::above_zero(1e4, "no joint carries more")},
+             s.load);
   v.quantity(
       {"lever", "length of that lever: distance from the joint to the load", "m", part_length},
       s.lever);
@@ -198,9 +198,10 @@ void fields(Visitor& v, AirSettings& s) {
   v.quantity({"line", "set pressure of the regulator; default: that of the run or the muscle",
               "Pa gauge", stored},
              s.line);
-  v.quantity({"lowest", "pressure in the line below which the robot stops; default: that of line",
-              "Pa gauge", stored},
-             s.lowest);
+  v.quantity(
+      {"lowest", "pressure in the line below which the robot stops; default: the set pressure",
+       "Pa gauge", stored},
+      s.lowest);
   v.quantity({"droop", "fall of the regulator's pressure when air flows", "Pa diff",
               config::above_zero(config::greatest_pressure, "no regulator falls further")},
              s.droop);
@@ -219,7 +220,7 @@ void fields(Visitor& v, AirSettings& s) {
              "",
              {0, 10000, "no robot has more"}},
             s.muscles);
-  v.quantity({"cycles", "fillings of each muscle per time", "Hz",
+  v.quantity({"cycles", "frequency at which each muscle is filled", "Hz",
               config::above_zero(1000, "no muscle works faster")},
              s.cycles);
   v.quantity({"length", "length of a vented muscle; default: its rest length", "m", part_length},
@@ -229,7 +230,7 @@ void fields(Visitor& v, AirSettings& s) {
               "1",
               {0, 0.5, "no braid contracts further"}},
              s.contraction);
-  v.quantity({"muscle_pressure", "pressure of a full muscle; default: that of line", "Pa gauge",
+  v.quantity({"muscle_pressure", "pressure of a full muscle; default: the set pressure", "Pa gauge",
               config::above_zero(config::greatest_pressure, config::air_pressure.why)},
              s.muscle_pressure);
   v.quantity(

@@ -77,6 +77,24 @@ TEST(Terminal, TablesKeepWithinTheWindow) {
   }
 }
 
+// An example that is folded for the terminal is the same command as in a file.
+TEST(Terminal, ExamplesKeepWithinTheWindow) {
+  const Workspace w;
+  const auto example = [](std::string text) {
+    std::erase(text, '\r');
+    for (std::size_t at; (at = text.find(" \\\n   ")) != text.npos;) text.erase(at, 6);
+    return text.substr(text.find("Example:"));
+  };
+  for (const Words& words : {Words{"sweep", "--help"}, Words{"identify", "static", "--help"},
+                             Words{"kinematics", "--help"}, Words{"figures", "--help"}}) {
+    const std::string seen = on_terminal(w, words, 80, "1");
+    EXPECT_EQ(example(seen), example(w.sinew(words).out));
+    std::istringstream lines(seen.substr(seen.find("Example:")));
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_LE(line.size(), std::size_t{81}) << line;  // \r
+  }
+}
+
 TEST(Terminal, TheBarIsGoneAtTheEnd) {
   const Workspace w;
   const std::string seen =

@@ -115,8 +115,8 @@ void fields(Visitor& v, DynamicSettings& s) {
       {"external_volume", "volume of hose and fittings up to the shut valve; one, or one per file",
        "m3", config::air_volume},
       s.external_volume);
-  v.quantity({"exponent", "polytropic exponent; default: from measured pressure, else 1.4 [39]",
-              "1", config::polytropic},
+  v.quantity({"exponent", "polytropic exponent; default: from measured pressure, else 1.4", "1",
+              config::polytropic},
              s.exponent);
   v.integer({"count", "actuators in parallel", "", parallel_actuators}, s.count);
   v.hold_out(Setting{"hold_out",
