@@ -1,5 +1,5 @@
 // Tables of a comparison: numbers of the runs, parameters that differ, and differences of channels.
-import { button, by_id, element } from './page.js';
+import { breakable, button, by_id, element } from './page.js';
 import { letter_of } from './runs.js';
 import { cell, heading, long_cell, searched, table } from './tables.js';
 import { difference_unit, number, signed, unit_of_key, words_of_key } from './units.js';
@@ -123,7 +123,7 @@ export class ComparisonTables {
 
   parameters() {
     const rows = this.data.parameters.map(({ key, values }) => ({
-      row: element('tr', { 'data-key': key }, element('th', { scope: 'row', class: 'key' }, key),
+      row: element('tr', { 'data-key': key }, element('th', { scope: 'row', class: 'key' }, ...breakable(key)),
         ...values.map((v) => (v === null ? cell('–', 'quiet') : long_cell(v)))),
     }));
     const root = by_id('parameters');
@@ -161,7 +161,7 @@ export class ComparisonTables {
     const name = channel.field === 'value' ? channel.topic : `${channel.topic}.${channel.field}`;
     const cells = this.others.map((i) => this.channel_cells(channel, channel.differences[i], `${letter_of(i)} − A`));
     const unit = cell('', 'unit');
-    const row = element('tr', { 'data-key': name }, element('th', { scope: 'row', class: 'key' }, name),
+    const row = element('tr', { 'data-key': name }, element('th', { scope: 'row', class: 'key' }, ...breakable(name)),
       element('td', { class: 'bar-cell' }, bar), ...cells.flatMap((c) => c.all), unit);
     row.classList.toggle('equal', channel.differences.every((d) => !d || d.same || (d.samples > 0 && d.largest === 0)));
     const share = (d) => (d && d.span > 0 && d.rms !== null ? d.rms / d.span : 0);

@@ -1,6 +1,6 @@
 // Tables of the page of a run: results compared with reported values, all numbers, warnings, and all
 // parameters.
-import { button, by_id, element } from './page.js';
+import { breakable, button, by_id, element } from './page.js';
 import { number, unit_of_key, words_of_key } from './units.js';
 
 export function table(label, heads, rows) {
@@ -131,7 +131,7 @@ export function long_cell(words) {
 export function show_parameters(run, file = 'resolved.toml') {
   const rows = run.parameters.map(([key, value, mark, range, uncertainty, source]) => ({
     row: element('tr', { 'data-key': key },
-      element('th', { scope: 'row', class: 'key' }, key), long_cell(value),
+      element('th', { scope: 'row', class: 'key' }, ...breakable(key)), long_cell(value),
       element('td', {}, mark ? element('span', { class: `tag ${mark}` }, mark) : ''),
       cell([range, uncertainty && `± ${uncertainty}`].filter(Boolean).join(', '), 'quiet'),
       cell(source, 'source')),
