@@ -117,7 +117,10 @@ std::string Axis::set(const Value& value) const { return key + "=" + value.text;
 
 Axis parse_axis(std::string_view text, std::string_view setting) {
   const std::size_t equals = text.find('=');
-  Axis axis{.key = std::string(trimmed(text.substr(0, equals))), .unit = {}, .values = {}};
+  Axis axis{.key = std::string(trimmed(text.substr(0, equals))),
+            .unit = {},
+            .values = {},
+            .setting = std::string(setting)};
   if (equals == text.npos || axis.key.empty())
     refuse(setting, text, "KEY=a,b,c or KEY=from:to:how many, and the unit",
            "\"joint.hip.angle_gain=0.02:0.1:5 %/count\"");
@@ -135,7 +138,10 @@ Axis parse_axis(std::string_view text, std::string_view setting) {
 
 Axis parse_ends(std::string_view text, std::string_view setting, const std::string& example) {
   const std::size_t equals = text.find('=');
-  Axis axis{.key = std::string(trimmed(text.substr(0, equals))), .unit = {}, .values = {}};
+  Axis axis{.key = std::string(trimmed(text.substr(0, equals))),
+            .unit = {},
+            .values = {},
+            .setting = std::string(setting)};
   const Form form{setting, 2, "KEY=from:to and the unit", example};
   if (equals == text.npos || axis.key.empty())
     refuse(setting, text, std::string(form.words), example);
@@ -147,7 +153,7 @@ Axis parse_ends(std::string_view text, std::string_view setting, const std::stri
 }
 
 Axis seeds(int n) {
-  Axis axis{.key = "seed", .unit = {}, .values = {}};
+  Axis axis{.key = "seed", .unit = {}, .values = {}, .setting = "seeds"};
   for (int i = 1; i <= n; ++i) axis.values.push_back(axis.at(i));
   return axis;
 }

@@ -25,6 +25,7 @@ struct Axis {
   std::string key;
   std::string unit;  // as written; may be empty
   std::vector<Value> values;
+  std::string setting = "vary";  // where it was written, for messages: "vary", "range"
 
   std::string heading() const;          // "joint.hip.angle_gain [%/count]"
   Value at(double number) const;        // in the axis's unit

@@ -143,6 +143,27 @@ const std::string& first_text(const Axis& axis) { return axis.values.front().tex
                config::closest_in_quotes(axis.key, known));
 }
 
+// Throws the problem of an axis among those of an experiment, at the setting where the axis was
+// written. Does nothing if there is none.
+void refuse_axis(const Axis& axis, const config::Error& e) {
+  for (const config::Problem& problem : e.problems())
+    if (problem.key == axis.key)
+      config::fail({axis.setting, 0, 0}, "", axis.key + ": " + problem.found, problem.expected,
+                   problem.try_this);
+}
+
+// Returns the experiment with a value of an axis. Throws config::Error if it is refused.
+experiment::Experiment with_value(const Sweep& s, const Axis& axis, const std::string& set) {
+  std::vector<std::string> sets = s.sets;
+  sets.push_back(set);
+  try {
+    return run::buildable(s.experiment, sets);
+  } catch (const config::Error& e) {
+    refuse_axis(axis, e);
+    throw;
+  }
+}
+
 // Checks the least and the greatest whole number, each alone. Other faults of the experiment are
 // ignored, since another axis may correct them.
 void check_whole_numbers(const Sweep& s, const Axis& axis) {
@@ -155,8 +176,7 @@ void check_whole_numbers(const Sweep& s, const Axis& axis) {
     try {
       (void)run::buildable(s.experiment, sets);
     } catch (const config::Error& e) {
-      for (const config::Problem& problem : e.problems())
-        if (problem.key == axis.key) throw config::Error(problem);
+      refuse_axis(axis, e);
     }
   }
 }
@@ -173,11 +193,8 @@ void check_values(const Sweep& s, const Axis& axis, const config::Origin& origin
 
 // Checks the first and the last value of an element of a list, which has no origin of its own.
 void check_element(const Sweep& s, const Axis& axis) {
-  for (const Value* value : {&axis.values.front(), &axis.values.back()}) {
-    std::vector<std::string> sets = s.sets;
-    sets.push_back(axis.set(*value));
-    (void)run::buildable(s.experiment, sets);
-  }
+  for (const Value* value : {&axis.values.front(), &axis.values.back()})
+    (void)with_value(s, axis, axis.set(*value));
 }
 
 void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins,
@@ -192,10 +209,8 @@ void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins
     return check_values(s, axis, *origin, atmosphere);
 
   // The key may exist only after it has been set. If it does not, the reader reports the fault.
-  std::vector<std::string> sets = s.sets;
-  sets.push_back(axis.key + "=" + first_text(axis));
   if (axis.key.find('.') == axis.key.npos) unknown_key(axis, origins);
-  const experiment::Experiment e = run::buildable(s.experiment, sets);
+  const experiment::Experiment e = with_value(s, axis, axis.key + "=" + first_text(axis));
   const config::Origin* origin = config::find_origin(e.origins, axis.key);
   if (!origin) unknown_key(axis, e.origins);
   check_values(s, axis, *origin, atmosphere);
@@ -208,7 +223,7 @@ void check_range(const Sweep& s, const Range& range, const config::Origins& orig
     config::fail({range.axis.key, 0, 0}, "", "a range", "a list of files, in vary",
                  "vary=\"" + range.axis.key + "=a.toml,b.toml\"");
   check_axis(s, range.axis, origins, atmosphere);
-  const Axis between{range.axis.key, range.axis.unit, {range.at(0.4321)}};
+  const Axis between{range.axis.key, range.axis.unit, {range.at(0.4321)}, range.axis.setting};
   check_axis(s, between, origins, atmosphere);
 }
 
