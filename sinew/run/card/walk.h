@@ -1,14 +1,12 @@
 // run/card/walk.h - one run of a plain leg as a block of bytes: machine, board and loop. The same
 // source is compiled for the processor and for graphics cards (kernel.cu), with the same bits.
 //
-// clang-format off
 //   the loop             run/simulation/loop.h
 //   the machine          world/flat_leg.h
 //   the low level        run/controllers/board.h
 //   the gait controller  a table of its commands, computed before the run (plan_table.h): so the
 //                        plan must not depend on measured values
 //   the recorder         the samples and edges that are kept, here
-// clang-format on
 #pragma once
 
 #include <cstddef>
