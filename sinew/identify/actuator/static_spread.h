@@ -26,22 +26,23 @@
 // Between two lengths the form of the law has an additional error, common to all pressures, which
 // grows with the distance to the nearest length:
 //
-//   half-width^2 = (q sigma_F)^2 + (q_t kappa_d eps_d F_max)^2
+//   half-width^2 = (q sigma_F)^2 + (q_d kappa_d eps_d F_max)^2      q_d = 1 for 68 %, 1.7 for 95 %
 //   kappa_d^2 = (nu_0 kappa_d0^2 + sum e_k^2/eps_dk^2) / (nu_0 + n_L)
 //
 //   eps_d  distance of the nearest measured length, as a share of the rest length; 0 beyond the
 //      ends, as the ends that were left out have it in their q [-]
-//   F_max  largest force [N]         q_t  Student's factor of nu_0 + n_L degrees of freedom
+//   F_max  largest force [N]
 //   e_k^2  mean square of the error at the k-th of n_L lengths that were left out, less that at
 //      pressures that were left out, in shares of F_max [-]; the sum is no less than 0
 //      eps_dk  its eps_d
-//   kappa_d0 = 0.08, nu_0 = 1  assumed for any law on any muscle beforehand; both were chosen so
-//      that intervals hold on seven muscles (docs/theory/static-models.md)
+//   kappa_d0 = 0.8, nu_0 = 1/8  assumed for any law on any muscle beforehand: an eighth of a length
+//      that was left out. They and q_d were chosen so that both intervals hold on seven muscles
+//      (docs/theory/static-models.md)
 //
-// kappa_d is the scale of a normal distribution of errors with a conjugate prior; few muscles have
-// more than two lengths between their ends, and two values give no quantile. Beyond the longest
-// length no interval is given: the bladder's first pull is steepest there, and shorter lengths do
-// not show it (for five muscles only 100 of 201 forces were within the 95 % interval).
+// Few muscles have more than two lengths between their ends, and two values give no quantile.
+// Beyond the longest length no interval is given: the bladder's first pull is steepest there, and
+// shorter lengths do not show it (for five muscles only 100 of 201 forces were within the 95 %
+// interval).
 #pragma once
 
 #include <cstddef>
@@ -68,7 +69,7 @@ enum class PredictionKind { inside, beyond, other_muscle };
 struct StaticSpread {
   Quantiles inside, beyond;
 
-  // Half-widths between lengths, per share of the rest length: q_t kappa_d F_max [N].
+  // Half-widths between lengths, per share of the rest length: q_d kappa_d F_max [N].
   double between_68 = 0, between_95 = 0;
 
   // q rho of the muscles that were left out, and the greatest |ln| of the ratio to the nearest

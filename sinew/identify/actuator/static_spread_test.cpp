@@ -89,23 +89,23 @@ TEST(Spread, FewPointsTakeStudentsFactorAndNoneAreInfinite) {
   EXPECT_TRUE(std::isinf(quantiles({}).q95));
 }
 
-// Without lengths that were left out, only the prior counts; errors equal to the prior leave it
-// unchanged and reduce Student's factor; smaller errors narrow it further.
+// Without lengths that were left out, only the prior counts, as an eighth of a length; errors equal
+// to the prior leave it unchanged, and others soon outweigh it.
 TEST(Spread, BetweenLengthsItGrowsWithWhatLengthsWereMissedBy) {
-  const auto half_95 = [](const std::vector<LengthError>& missed) {
+  const auto half_68 = [](const std::vector<LengthError>& missed) {
     StaticSpread spread;
     add_between(missed, 1000, spread);
-    EXPECT_GT(spread.between_95, spread.between_68);
-    return spread.between_95 / 1000;
+    EXPECT_NEAR(spread.between_95, 1.7 * spread.between_68, 1e-12 * spread.between_68);
+    return spread.between_68 / 1000;
   };
-  constexpr double c = 0.08;  // share of the largest force per rest length
-  EXPECT_NEAR(half_95({}), c * t_quantile(1), 1e-12);
+  constexpr double c = 0.8;  // share of the largest force per rest length
+  EXPECT_NEAR(half_68({}), c, 1e-12);
   const double a = 0.04, square = std::pow(c * a, 2);
-  EXPECT_NEAR(half_95({{square, a}, {square, a}}), c * t_quantile(3), 1e-12);
-  EXPECT_NEAR(half_95({{0, a}, {0, a}}), c * std::sqrt(1.0 / 3) * t_quantile(3), 1e-12);
-  EXPECT_NEAR(half_95({{-square, a}, {0, a}}), half_95({{0, a}, {0, a}}), 1e-12);
-  EXPECT_NEAR(half_95({{100 * square, a}}), c * std::sqrt(101.0 / 2) * t_quantile(2), 1e-12);
-  EXPECT_NEAR(half_95({{100 * square, 2 * a}}), c * std::sqrt(26.0 / 2) * t_quantile(2), 1e-12);
+  EXPECT_NEAR(half_68({{square, a}, {square, a}}), c, 1e-12);
+  EXPECT_NEAR(half_68({{0, a}, {0, a}}), c * std::sqrt(1.0 / 17), 1e-12);
+  EXPECT_NEAR(half_68({{-square, a}, {0, a}}), half_68({{0, a}, {0, a}}), 1e-12);
+  EXPECT_NEAR(half_68({{100 * square, a}}), c * std::sqrt(801.0 / 9), 1e-12);
+  EXPECT_NEAR(half_68({{100 * square, 2 * a}}), c * std::sqrt(201.0 / 9), 1e-12);
 }
 
 // The width grows from a length to the middle of the gap, and is that of the fit at the length.

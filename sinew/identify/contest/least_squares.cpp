@@ -374,25 +374,14 @@ const Estimate& Solution::operator[](std::string_view name) const {
   throw std::out_of_range(fmt::format("no parameter {}", name));
 }
 
-namespace {
-
-// Returns Student's quantile from the normal one, z, by the expansion of Cornish and Fisher.
-double expanded(double z, double freedom) {
-  const double v = freedom, z2 = z * z;
-  return z + z * (z2 + 1) / (4 * v) + z * ((5 * z2 + 16) * z2 + 3) / (96 * v * v) +
-         z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / (384 * v * v * v);
-}
-
-}  // namespace
-
-double t_quantile_68(int freedom) { return expanded(0.994457883209753, freedom); }
-
 double t_quantile(int freedom) {
-  // The expansion is too small for few degrees of freedom.
+  // The expansion of Cornish and Fisher is too small for few degrees of freedom.
   constexpr double exact[] = {12.7062, 4.30265, 3.18245, 2.77645, 2.57058};
   if (freedom < 1) return unbounded;
   if (freedom <= 5) return exact[freedom - 1];
-  return expanded(1.959963984540054, freedom);
+  const double z = 1.959963984540054, z2 = z * z, v = freedom;
+  return z + z * (z2 + 1) / (4 * v) + z * ((5 * z2 + 16) * z2 + 3) / (96 * v * v) +
+         z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / (384 * v * v * v);
 }
 
 Estimate scaled(Estimate e, std::string name, std::string unit, double factor) {

@@ -137,8 +137,5 @@ Solution least_squares_from(const Residuals& residuals, std::size_t count,
 
 // Returns the 0.975 quantile of Student's t: the half-width of a 95 % interval in standard errors.
 double t_quantile(int freedom);
-// Returns its 0.84 quantile, within 2 % for one degree of freedom: the half-width of a 68 %
-// interval.
-double t_quantile_68(int freedom);
 
 }  // namespace sinew::identify
