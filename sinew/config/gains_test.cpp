@@ -2,6 +2,7 @@
 #include "sinew/config/gains.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -66,8 +67,7 @@ class GainFile : public ::testing::Test {
     return at ? written(*at) : "nothing";
   }
   const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() /
-      (std::string("gains_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+      std::filesystem::temp_directory_path() / ("sinew-gains-" + std::to_string(getpid()));
 };
 
 TEST_F(GainFile, BecomesTheGainsOfTheJointsWithMuscles) {

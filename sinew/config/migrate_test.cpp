@@ -3,6 +3,7 @@
 #include "sinew/config/migrate.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -125,7 +126,8 @@ TEST(Migrate, EndsOfLinesAndAMarkAtTheBeginningStay) {
 
 // An older file is read like the migrated one.
 TEST(Migrate, AnOlderFileIsReadAsIfItWere) {
-  const fs::path file = fs::temp_directory_path() / "sinew-migrate-test.toml";
+  const fs::path file =
+      fs::temp_directory_path() / ("sinew-migrate-" + std::to_string(getpid()) + ".toml");
   std::ofstream(file, std::ios::binary) << old_robot;
   const Node root = parse_file(file.string(), history());
   fs::remove(file);

@@ -2,6 +2,7 @@
 #include "sinew/host/module.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -38,7 +39,7 @@ class OtherProgram : public ::testing::Test {
   }
 
   const std::string path_;
-  const fs::path folder_ = fs::temp_directory_path() / "sinew-module-test";
+  const fs::path folder_ = fs::temp_directory_path() / ("sinew-module-" + std::to_string(getpid()));
 };
 
 TEST_F(OtherProgram, ItsExitCodeIsReturned) {

@@ -2,6 +2,7 @@
 #include "sinew/tune/sweep.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -233,7 +234,8 @@ TEST(Sweep, FindsTheLargestValueThatHolds) {
 
 TEST(Sweep, AFileThatChangesMeanwhileChangesNoRow) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / "sinew-sweep-of-one-version";
+  const fs::path folder =
+      fs::temp_directory_path() / ("sinew-sweep-of-one-version-" + std::to_string(getpid()));
   fs::remove_all(folder);
   fs::create_directories(folder);
   const std::string file = (folder / "own.toml").string();
@@ -274,9 +276,8 @@ class Plan : public ::testing::Test {
     return path_.string();
   }
   void TearDown() override { std::filesystem::remove(path_); }
-  const std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() /
-      (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".toml");
+  const std::filesystem::path path_ = std::filesystem::temp_directory_path() /
+                                      ("sinew-sweep-" + std::to_string(getpid()) + ".toml");
 };
 
 TEST_F(Plan, PrintsWhatTheCommandLinePrints) {
