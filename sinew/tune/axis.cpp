@@ -24,8 +24,10 @@ std::optional<units::NumberAndUnit> number_in(std::string_view text) {
 // Rounds to 12 digits, which removes the errors of steps: 0.30000000000000004 is 0.3.
 double rounded(double number) { return units::with_digits(number, 12); }
 
+// A whole number without a unit has all its digits: a key that takes whole numbers reads no 1e+09.
 Value number_value(double number, std::string_view unit) {
-  const std::string cell = units::format_number(number);
+  const bool is_whole = unit.empty() && number == std::floor(number) && std::fabs(number) < 1e15;
+  const std::string cell = is_whole ? fmt::format("{:.0f}", number) : units::format_number(number);
   return {unit.empty() ? cell : fmt::format("{} {}", cell, unit), cell, number};
 }
 

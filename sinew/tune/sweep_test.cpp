@@ -107,6 +107,7 @@ TEST(Sweep, RefusesARangeThatTheExperimentDoesNotKnow) {
   };
   EXPECT_EQ(of("phase.up.duration=1:2 s"), "");
   EXPECT_EQ(of("seed=1:9 whole"), "");
+  EXPECT_EQ(of("seed=1:2000000000 whole"), "");
   EXPECT_NE(of("phase.up.duration=1:2 lb").find("\"1 lb\", kg (mass)"), std::string::npos);
   EXPECT_NE(of("joint.arm.angle_gian=1:2 %/count").find("; try angle_gain"), std::string::npos);
   EXPECT_NE(of("seed=1:9").find("expected a whole number"), std::string::npos);
