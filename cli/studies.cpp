@@ -151,8 +151,7 @@ void add_keeping(CLI::App& sub, RunsOptions& options) {
 void add_runs(CLI::App& sub, tune::Study& study, RunsOptions& options) {
   add_words(sub, "--range", study.range,
             "KEY=RANGE: range to sample, \"1:5 lbf\"; behind it, \"log\" spreads the points evenly "
-            "in the "
-            "logarithm, \"whole\" takes whole numbers only");
+            "in the logarithm, \"whole\" takes whole numbers only");
   add_words(sub, "--report", study.report,
             "KEYS: keys of summary.json, separated by commas, each with or without a unit: "
             "\"duration_s [min]\"; default: those of its [[reported]] entries");

@@ -7,6 +7,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8
 sinew=${SINEW:-build/release/bin/sinew} folder=${1:-build/designs} seed=${2:-1}
+[[ -f $sinew && -x $sinew ]] || { echo "designs.sh: found no program $sinew; build it with ./demo, or name it by SINEW" >&2; exit 1; }
 experiments=$PWD/experiments
 mkdir -p "$folder"
 

@@ -7,9 +7,9 @@ cd "$(dirname "$0")/.."
 sinew=${SINEW:-build/release/bin/sinew} folder=${1:-build/fine}
 plans=$(sed -n 's/^\([a-z-]*\)|.*/\1/p' studies/fine.sh | tr '\n' ' ')
 for plan in "${@:2}"; do
-  [[ " $plans " == *" $plan "* ]] || { echo "fine.sh: found the plan \"$plan\"; expected some of: $plans" >&2; exit 2; }
+  [[ -n $plan && " $plans " == *" $plan "* ]] || { echo "fine.sh: found the plan \"$plan\"; expected some of: $plans" >&2; exit 2; }
 done
-[[ -x $sinew ]] || { echo "fine.sh: found no program $sinew; build it with ./demo, or name it by SINEW" >&2; exit 1; }
+[[ -f $sinew && -x $sinew ]] || { echo "fine.sh: found no program $sinew; build it with ./demo, or name it by SINEW" >&2; exit 1; }
 mkdir -p "$folder"
 
 # Prints the plan with other values in place of its own.

@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8
 sinew=${SINEW:-build/release/bin/sinew} folder=${1:-build/random-legs} out=docs/evidence/studies
-[[ -x $sinew ]] || { echo "random-legs.sh: found no program $sinew; build it with ./demo, or name it by SINEW" >&2; exit 1; }
+[[ -f $sinew && -x $sinew ]] || { echo "random-legs.sh: found no program $sinew; build it with ./demo, or name it by SINEW" >&2; exit 1; }
 mkdir -p "$folder"
 legs=$folder/legs.csv
 [[ -f $legs ]] || "$sinew" sweep studies/random-legs.toml --results "$folder/legs.db" ${THREADS:+--threads "$THREADS"} -o "$legs"

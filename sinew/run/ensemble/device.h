@@ -29,8 +29,8 @@ struct Device {
 Device parse_device(std::string_view text);
 
 // Returns the device with its card. An automatic one becomes the first usable card, else the
-// processor. Throws std::runtime_error if the device is a card that this
-// computer or this build cannot use.
+// processor. Throws std::runtime_error if the device is a card that this computer or this build
+// cannot use.
 Device chosen(const Device& device);
 
 // Returns the name of a chosen device's card, "NVIDIA H200 (card 0)"; empty for the processor.

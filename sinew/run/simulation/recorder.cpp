@@ -9,7 +9,7 @@ using signals::Tick;
 
 namespace {
 
-// Memory of a run whose samples are not moved to a file [byte].
+// Memory of samples and edges, without their times, that needs no file [byte].
 constexpr std::size_t most_memory = 1 << 22;
 
 // Returns 1 or 0 for an on/off valve, a share of its range for a regulator.

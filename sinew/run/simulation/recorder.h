@@ -1,11 +1,12 @@
 // run/simulation/recorder.h - recorder of a run, which fills the table of channels.
 //
 // It records one sample of all channels per period, right after the last law has run (or per log
-// period, if that differs), and each valve edge separately. Memory is reserved before the run and
-// does not depend on its duration: samples beyond a page per column are moved to a temporary file
-// (signals/paged_vector.h). During the run, recording is noexcept and allocates nothing. Records
-// can also be passed to a log as they come (Tap). Recording never changes the run, since the
-// state of the world is extrapolated in a copy.
+// period, if that differs), and each valve edge separately. Memory is reserved before the run. If
+// samples and edges may need more than 4 MB, those beyond a page per column are moved to a
+// temporary file (signals/paged_vector.h), so that memory does not grow with the duration. During
+// the run, recording is noexcept and allocates nothing. Records can also be passed to a log as they
+// come (Tap). Recording never changes the run, since the state of the world is extrapolated in a
+// copy.
 #pragma once
 
 #include <atomic>
