@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
+#include <set>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/design/methods.h"
+#include "sinew/identify/task/methods.h"
 
 namespace sinew::cli {
 
@@ -17,46 +20,51 @@ struct Renamed {
 constexpr Renamed renamed[] = {
     {"names", "map"}, {"units", "unit"}, {"values", "value"}, {"offsets", "offset"}};
 
-// Settings that messages of the library name with a value. Other words stay: "time=0" is no option.
-constexpr std::string_view settings =
-    " actuator added_volume align anyway arm base bits candidate columns compressor "
-    "conductance contraction cycles dates decimal device diameter down droop "
-    "droop_flow drop_incomplete encoding exponent external_volume fill_time flexion flexor_length "
-    "flow "
-    "force frequency full_scale hold_out json keep_force known label largest law_error lever "
-    "line load machine made model moment_arm most motion muscle_pressure muscles names "
-    "offsets only part per_volume points port pressure range rate reading report rest "
-    "rest_length root sensors shard spread_times thousands time torque units values vary "
-    "volume where ";
+// Names of the settings that have a row, of which their option is made (cli/option_groups.h).
+struct Rows : config::RowVisitor<Rows> {
+  void row(const config::Setting& row, const auto&) { names.insert(row.name); }
+  std::set<std::string_view> names;
+};
 
-// Settings whose names are also keys of units, as in "length=mm": with a value in quotes alone.
-constexpr std::string_view quoted_settings = " length ";
+const std::set<std::string_view>& names_of_rows() {
+  static const Rows out = [] {
+    Rows rows;
+    const auto visit = [&rows](auto settings) { fields(rows, settings); };
+    identify::for_each_method(visit);
+    visit(identify::TransducerSettings());
+    design::for_each_design(visit);
+    return rows;
+  }();
+  return out.names;
+}
 
-// Settings that can be the subject of a problem: at the begin of a line, or behind a file's name.
-// A name with a line number is a key of that file.
+// Settings of the other commands, which have no row.
+constexpr std::string_view further =
+    " align align_by candidate channels clock columns dates decimal device drop_incomplete "
+    "encoding event font foot force fps json label largest names offsets only output part points "
+    "predict_dat range rate report root shard speed spread_times thousands title to units values "
+    "vary where within ";
+
+// Settings that are no subject of a problem: a file, or a word of the line, may be called so.
+constexpr std::string_view no_subjects =
+    " actuator columns device extensor file flexor joint json largest only root run score ";
+
+// Settings whose names are also keys of units, as in "length=mm", or words of a message, as in
+// "name=value": with a value in quotes alone.
+constexpr std::string_view quoted_settings = " length name ";
+
+// Settings that can be the subject of a problem behind a file's name, too: no file has such a
+// column. A name with a line number is a key of that file.
 constexpr std::string_view subjects =
-    " candidate freeze known model names offsets part points prior range report rigs "
-    "sensors "
+    " candidate freeze known model names offsets part points prior range report rigs sensors "
     "shard tie units values vary where ";
-
-// Settings that can be the subject at the begin of a line alone: a file may have such a column.
-constexpr std::string_view quantities =
-    " added_volume align align_by angles arm atmosphere base bits branch bridge channels "
-    "clock closing_delay compressor compressor_mass concentration conductance "
-    "contracted_length contraction count criterion critical_ratio cycles dates decimal "
-    "diameter down droop droop_flow duration duty encoding error event excitation exponent "
-    "extensor_length external_volume fill_time fit fit_where flexion flexor_length flow font "
-    "foot force fps frequency from full_scale gage_factor gages gain greatest_duty height "
-    "hold_out kind label law_error least_duty length length_error lever limb limb_lever line "
-    "load longest lowest machine made mass modulus moment_arm most motion mount_time "
-    "muscle_pressure muscles name noise opening_delay output poisson port predict "
-    "predict_dat pressure prior rate reading rest rest_angle rest_length sensitivity "
-    "shortest side speed start step step_time supply temperature thousands thread_thickness "
-    "threads time title to torque trapezoids uncertainty use vent_time vent_to volume width "
-    "window within yield ";
 
 bool is_one_of(std::string_view word, std::string_view words) {
   return words.find(" " + std::string(word) + " ") != words.npos;
+}
+
+bool is_setting(std::string_view name) {
+  return names_of_rows().contains(name) || is_one_of(name, further);
 }
 
 bool is_letter_of_a_name(char c) {
@@ -70,11 +78,11 @@ std::string option_of(std::string_view setting) {
   return out;
 }
 
-bool begins_a_line(std::string_view before) { return before.empty() || before.ends_with('\n'); }
-
-bool can_be_subject(std::string_view before) {
-  if (begins_a_line(before)) return true;
-  return before.size() > 2 && before.ends_with(": ") &&
+// Returns whether the setting is the subject of a problem that follows this text.
+bool is_subject(std::string_view name, std::string_view before) {
+  if (before.empty() || before.ends_with('\n'))
+    return is_setting(name) && !is_one_of(name, no_subjects);
+  return is_one_of(name, subjects) && before.size() > 2 && before.ends_with(": ") &&
          std::isdigit(before[before.size() - 3]) == 0;
 }
 
@@ -85,14 +93,9 @@ std::string option_at(std::string_view whole, std::size_t at, std::size_t& taken
       static_cast<std::size_t>(std::ranges::find_if_not(text, is_letter_of_a_name) - text.begin());
   const std::string_view name = text.substr(0, end), rest = text.substr(end);
   taken = end;
-  if (is_one_of(name, subjects) && rest.starts_with(": found ") &&
-      can_be_subject(whole.substr(0, at)))
-    return option_of(name);
-  if (is_one_of(name, quantities) && rest.starts_with(": found ") &&
-      begins_a_line(whole.substr(0, at)))
-    return option_of(name);
-  const bool is_quoted = is_one_of(name, quoted_settings) && rest.starts_with("=\"");
-  if ((!is_one_of(name, settings) && !is_quoted) || rest.size() < 2) return "";
+  if (rest.starts_with(": found ") && is_subject(name, whole.substr(0, at))) return option_of(name);
+  if (!is_setting(name) || rest.size() < 2) return "";
+  if (is_one_of(name, quoted_settings) && !rest.starts_with("=\"")) return "";
   const bool named = std::ranges::count(renamed, name, &Renamed::setting) > 0;
   const bool value = rest[0] == '=' && rest[1] != ' ' && rest[1] != '=';
   const bool begins_name = is_letter_of_a_name(rest[1]) || rest[1] == '/';  // as a channel
