@@ -64,10 +64,10 @@ void complete(CLI::Option& option) {
 
 }  // namespace
 
-CLI::App& subcommand(CLI::App& app, const std::string& name, const std::string& description,
-                     const std::string& example) {
-  CLI::App& sub = *app.add_subcommand(name, description);
-  sub.footer(example);
+CLI::App& subcommand(CLI::App& app, std::string_view name, std::string_view description,
+                     std::string_view example) {
+  CLI::App& sub = *app.add_subcommand(std::string(name), std::string(description));
+  sub.footer(std::string(example));
   return sub;
 }
 
@@ -108,7 +108,15 @@ CLI::Validator between(int first, int last) {
 }
 
 CLI::Validator passes(std::function<std::string(const std::string&)> wrong) {
-  return {[wrong = std::move(wrong)](std::string& text) { return wrong(text); }, ""};
+  const auto checked = [wrong = std::move(wrong)](const std::string& text) {
+    try {
+      return wrong(text);
+    } catch (const config::Error& e) {
+      const config::Problem& p = e.problems().front();
+      return complaint(p.found, p.expected, p.try_this);
+    }
+  };
+  return {checked, ""};
 }
 
 void complete_description(CLI::App& app) {

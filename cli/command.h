@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sinew::cli {
@@ -24,8 +25,8 @@ Add add_run, add_analyze, add_report, add_compare, add_export, add_import, add_r
 
 // Returns a new subcommand of `app` with its one line of description and the example that ends its
 // help: one line, or several with two blanks before each but the first.
-CLI::App& subcommand(CLI::App& app, const std::string& name, const std::string& description,
-                     const std::string& example);
+CLI::App& subcommand(CLI::App& app, std::string_view name, std::string_view description,
+                     std::string_view example);
 
 // Makes `run` the action of a command and returns its options, which live as long as the action.
 template <class Options>
@@ -46,16 +47,21 @@ void add_flags(CLI::App& sub, Flags& flags, const char* force, const char* json,
 CLI::App& alternatives(CLI::App& sub, const std::string& name);
 
 // Checks of a value: option->check(one_of({"fill", "vent"})), option->transform(between(1, 8)).
-// `wrong` returns what is wrong with a text, "" for nothing.
+// `wrong` returns what is wrong with a text, "" for nothing, or throws config::Error.
 CLI::Validator one_of(const std::vector<std::string>& words);
 CLI::Validator between(int first, int last);  // whole numbers, both included
 CLI::Validator passes(std::function<std::string(const std::string&)> wrong);
 
-// Adds `--set key=value`, any number of times; one value each, so that the next word is not taken
-// for a value.
+// Adds an option that may be named any number of times; one value each, so that the next word is
+// not taken for a value.
+inline void add_words(CLI::App& sub, const std::string& name, std::vector<std::string>& words,
+                      const std::string& description) {
+  sub.add_option(name, words, description)->allow_extra_args(false);
+}
+
+// Adds `--set key=value`.
 inline void add_sets(CLI::App& sub, std::vector<std::string>& sets) {
-  sub.add_option("--set", sets, "KEY=VALUE: value to use in place of the file's")
-      ->allow_extra_args(false);
+  add_words(sub, "--set", sets, "KEY=VALUE: value to use in place of the file's");
 }
 
 // Completes the description once all options are added: values are named VALUE, NUMBER or N in the

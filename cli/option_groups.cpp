@@ -7,16 +7,15 @@
 
 #include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/log/replacement.h"
 #include "sinew/recording/source.h"
 #include "sinew/run/folder/files.h"
-#include "sinew/run/folder/run_folder.h"
 
 namespace sinew::cli {
 
 void add_units(CLI::App& sub, std::string& units, const std::string& of) {
   const auto wrong = [](const std::string& text) {
-    const auto m = units::read_shown_units(text).mistake;
-    return m ? units::to_text(*m) : std::string();
+    return config::parse_shown_units(text, {}, ""), "";
   };
   sub.add_option("--units", units,
                  "UNITS: si, thesis, metric, or with changes (metric,length=cm): units of " + of)

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -41,20 +40,12 @@ struct RunsOptions {
   std::string shard;    // "2/3"; empty: all points
 };
 
-struct SweepRuns {
-  const RunsOptions& options;
-  const Messages& messages;
-  bool bar = true;                 // a progress bar, on a terminal
-  tune::Master* master = nullptr;  // distributes the runs to other processes
-  tune::TableFile* csv = nullptr;  // takes the rows, as they come where no other file keeps them
-};
-
 // Returns the device of this many runs, and prints which card it is. Where other processes run
 // them, each of these chooses its own.
-run::Device device_of(const RunsOptions& options, std::size_t runs, const tune::Master* master,
+run::Device device_of(const RunsOptions& options, std::size_t runs, const tune::Master& master,
                       const Messages& messages) {
   const run::Device given = run::parse_device(options.device);
-  if (master != nullptr && !master->is_alone()) return given;
+  if (!master.is_alone()) return given;
   run::Device device = run::chosen(given);
   const bool is_named = device.kind == run::Device::Kind::gpu;
   if (device.card && runs > 0 && (is_named || runs >= run::fewest_on_card))
@@ -74,74 +65,39 @@ bool is_worker_of(const tune::Ranks& ranks, const RunsOptions& options,
   return true;
 }
 
-// Returns the rows of the share: those that existed and those that were run. Prints messages about
-// them, and puts the table in its place. Throws std::runtime_error where points are missing,
-// config::Error where a figure has no row; both name what holds the rows.
-std::vector<tune::Row> run_rows(const tune::Sweep& s, const SweepRuns& how) {
-  const std::string& file = how.options.results;
-  tune::Options options{
-      .threads = host::threads_of(how.options.threads),
-      .device = device_of(how.options, s.largest ? 0 : tune::points(s), how.master, how.messages),
-      .notice = [&](const std::string& text) { how.messages.note(text); }};
-  if (!how.options.shard.empty()) options.share = tune::parse_share(how.options.shard);
-  std::optional<tune::Results> results;
-  tune::open_results(s, file, options, results, how.messages.notices());
-  // Rows that a study's file keeps are not needed in half a table.
-  const bool late = results && how.csv && !how.csv->part().empty();
-
-  const std::size_t points = options.share.size(tune::points(s));
+// Returns the rows of the share: those that existed and those that were run. `csv` takes them, too,
+// null: none.
+std::vector<tune::Row> run_rows(const tune::Sweep& s, const RunsOptions& options,
+                                tune::Master& master, tune::TableFile* csv,
+                                const Messages& messages, bool shows_bar) {
   std::atomic<std::int64_t> progress{0};
-  const ProgressBar bar(progress, static_cast<std::int64_t>(points),
-                        {.each = 1, .unit = "points", .decimals = 0}, !how.bar);
   Interrupt interrupt;
-  options.stop = &interrupt.requested();
-  options.progress = &progress;
-  if (how.master) options.dispatch = how.master->dispatcher(s, options.stop);
-  options.row = [&](const tune::Row& row) {
-    if (how.csv && !late && !how.csv->add(row.cells)) interrupt.request();
-  };
-  options.done = [&](const tune::Row& row) {
-    if (results && !results->add(row)) interrupt.request();
-  };
-  std::vector<tune::Row> rows = tune::sweep(s, options);
-  if (results) results->throw_failure();
-  if (how.csv) how.csv->throw_failure();
-  tune::check_rows(rows, s, points, results || !how.csv ? file : how.csv->part(), !file.empty(),
-                   how.messages.notices());
-  if (!how.csv) return rows;
-  if (late)
-    for (const tune::Row& row : rows) how.csv->add(row.cells);
-  how.csv->throw_failure();
-  how.csv->take_place();
-  return rows;
-}
-
-// Adds an option that takes one word each time that it is given.
-void add_words(CLI::App& sub, const char* name, std::vector<std::string>& words,
-               const char* description) {
-  sub.add_option(name, words, description)->allow_extra_args(false);
-}
-
-// Returns what is wrong with the name of a device, "" for nothing.
-std::string mistake_of_device(const std::string& text) {
-  try {
-    run::parse_device(text);
-  } catch (const config::Error& e) {
-    const config::Problem& p = e.problems().front();
-    return units::to_text({p.found, p.expected, p.try_this});
-  }
-  return "";
+  tune::StoredSweepOptions kept{
+      .sweep = {.threads = host::threads_of(options.threads),
+                .device = device_of(options, s.largest ? 0 : tune::points(s), master, messages),
+                .notice = [&](const std::string& text) { messages.note(text); },
+                .stop = &interrupt.requested(),
+                .progress = &progress},
+      .table = csv,
+      .ask_to_stop = [&] { interrupt.request(); },
+      .notices = messages.notices()};
+  if (!options.shard.empty()) kept.sweep.share = tune::parse_share(options.shard);
+  kept.sweep.dispatch = master.dispatcher(s, &interrupt.requested());
+  const ProgressBar bar(progress, static_cast<std::int64_t>(kept.sweep.share.size(tune::points(s))),
+                        {.unit = "points"}, !shows_bar);
+  return tune::sweep_and_store(s, options.results, kept);
 }
 
 // --threads, --device and --results.
 void add_keeping(CLI::App& sub, RunsOptions& options) {
+  const auto no_device = [](const std::string& text) { return run::parse_device(text), ""; };
   sub.add_option("--threads", options.threads, "runs at a time; default: one per processor")
       ->transform(between(1, 1024));
   sub.add_option(
          "--device", options.device,
          "DEVICE: what makes the runs: cpu, gpu, gpu:N (a graphics card) or auto; the table is the "
          "same")
-      ->transform(passes(mistake_of_device))
+      ->transform(passes(no_device))
       ->capture_default_str();
   sub.add_option("--results", options.results,
                  "FILE: study file that stores each finished row; stored rows are not run again");
@@ -161,17 +117,6 @@ void add_runs(CLI::App& sub, tune::Study& study, RunsOptions& options) {
   add_keeping(sub, options);
 }
 
-// Writes a CSV file; nothing where it has no name.
-void write_table(const std::string& file, const std::vector<std::string>& headings,
-                 const std::vector<std::vector<std::string>>& rows, bool force,
-                 const std::vector<fs::path>& inputs) {
-  if (file.empty()) return;
-  tune::TableFile csv(file, headings, force, inputs);
-  for (const std::vector<std::string>& row : rows) csv.add(row);
-  csv.throw_failure();
-  csv.take_place();
-}
-
 // --- sweep ---
 
 struct SweepOptions : Flags {
@@ -180,7 +125,9 @@ struct SweepOptions : Flags {
   RunsOptions runs;
 };
 
-ExitCode sweep_all(const SweepOptions& options) {
+ExitCode sweep_all(const SweepOptions& given) {
+  SweepOptions options = given;
+  if (options.json) options.study_options.study.units.clear();
   const auto read_sweep = [&] {
     return tune::sweep_of(tune::load_study(options.file, options.study_options));
   };
@@ -199,11 +146,8 @@ ExitCode sweep_all(const SweepOptions& options) {
     csv.emplace(headings,
                 [](std::string_view line) { std::fwrite(line.data(), 1, line.size(), stdout); });
   const std::vector<tune::Row> rows =
-      run_rows(s, {.options = options.runs,
-                   .messages = messages,
-                   .bar = !options.quiet && !options.out.empty(),  // it would run through a table
-                   .master = &master,
-                   .csv = csv ? &*csv : nullptr});
+      run_rows(s, options.runs, master, csv ? &*csv : nullptr, messages,
+               !options.quiet && !options.out.empty());  // it would run through a table
   if (options.json) fmt::print("{}", tune::json_of(headings, rows));
   if (!options.out.empty()) messages.note(options.out);
   return ok;
@@ -238,7 +182,7 @@ tune::Tuned run_tuning(const tune::Tuning& tuning, const TuneOptions& options, t
   tune::StoredTuningOptions kept{
       .tune = {.runs = {.threads = host::threads_of(options.runs.threads),
                         .device =
-                            device_of(options.runs, tuning.method.population, &master, messages)}},
+                            device_of(options.runs, tuning.method.population, master, messages)}},
       .ask_to_stop = [&] { interrupt.request(); },
       .notices = messages.notices()};
   kept.tune.runs.stop = &interrupt.requested();
@@ -246,7 +190,7 @@ tune::Tuned run_tuning(const tune::Tuning& tuning, const TuneOptions& options, t
   kept.tune.dispatch = [&](const tune::Sweep& s) {
     return master.dispatcher(s, &interrupt.requested());
   };
-  const ProgressBar bar(progress, all, {.each = 1, .unit = "runs", .decimals = 0}, options.quiet);
+  const ProgressBar bar(progress, all, {.unit = "runs"}, options.quiet);
   return tune::optimize_and_store(tuning, options.runs.results, kept);
 }
 
@@ -270,18 +214,6 @@ void print_text(const tune::Tuning& tuning, const tune::Tuned& tuned, const Tune
   fmt::print("{}", tune::text_of(tuning, tuned, chosen.is_requested ? &shown : nullptr));
   if (tuned.best.size() == 1)
     fmt::print("{}\n", command_of(tuning, tuned.candidates[tuned.best.front()]));
-}
-
-// Returns the candidate of --candidate, or the only best one.
-const tune::Candidate& chosen(const tune::Tuned& tuned, const TuneOptions& options) {
-  const std::size_t all = tuned.candidates.size();
-  const auto wanted = static_cast<std::size_t>(options.candidate);
-  if (options.candidate < 0 && tuned.best.size() == 1) return tuned.candidates[tuned.best.front()];
-  if (options.candidate >= 0 && wanted < all) return tuned.candidates[wanted];
-  config::fail({"candidate", 0, 0}, "",
-               options.candidate < 0 ? fmt::format("{} best candidates", tuned.best.size())
-                                     : std::to_string(wanted),
-               fmt::format("the number of one, 0 to {}", all - 1), "one of the table's");
 }
 
 ExitCode tune_all(const TuneOptions& given) {
@@ -319,17 +251,17 @@ ExitCode tune_all(const TuneOptions& given) {
   // Files come before what is printed: a reader that ends early ends the program.
   std::vector<std::vector<std::string>> rows;
   for (const tune::Candidate& c : tuned.candidates) rows.push_back(tune::candidate_cells(c));
-  write_table(options.out, tune::candidate_headings(tuning), rows, options.force, {options.file});
+  tune::write_table(options.out, tune::candidate_headings(tuning), rows, options.force,
+                    {options.file});
   if (!options.best.empty())
-    run::write_file(options.best,
-                    tune::experiment_of(tuning, chosen(tuned, options), options.best));
+    run::write_file(
+        options.best,
+        tune::experiment_of(tuning, tune::candidate_of(tuned, options.candidate), options.best));
   print();
   return tuned.best.empty() ? failed : ok;
 }
 
 // --- sensitivity ---
-
-using tune::Method;
 
 struct SensitivityOptions : Flags {
   tune::Study study;
@@ -338,24 +270,16 @@ struct SensitivityOptions : Flags {
   int points = 0, seed = 1;
 };
 
-tune::Design design_of(const SensitivityOptions& options) {
-  tune::Design out{.ranges = options.study.range.size(),
-                   .seed = static_cast<std::uint64_t>(options.seed)};
-  if (options.method == "morris") out.method = Method::morris;
-  if (options.method == "ends") out.method = Method::one_at_a_time;
-  const int usual = out.method == Method::morris ? 20 : 256;
-  out.count = static_cast<std::size_t>(options.points > 0 ? options.points : usual);
-  return out;
-}
-
 tune::Sweep runs_of(const SensitivityOptions& options, const tune::Design& design) {
   tune::Study study = options.study;
+  if (options.json) study.units.clear();
   if (!study.range.empty()) study.points = 1;  // the design has its own
   return tune::sweep_of(design, tune::sweep_of(study));
 }
 
 ExitCode print_sensitivity(const SensitivityOptions& options) {
-  const tune::Design design = design_of(options);
+  const tune::Design design =
+      tune::design_of(options.method, options.study.range.size(), options.points, options.seed);
   const tune::Ranks ranks;
   if (is_worker_of(ranks, options.run, [&] { return runs_of(options, design); })) return ok;
   tune::Master master(ranks);
@@ -367,17 +291,14 @@ ExitCode print_sensitivity(const SensitivityOptions& options) {
   std::optional<tune::TableFile> csv;
   if (!options.runs.empty()) csv.emplace(options.runs, tune::headings(runs), options.force, inputs);
 
-  const std::vector<tune::Row> rows = run_rows(runs, {.options = options.run,
-                                                      .messages = messages,
-                                                      .bar = !options.quiet,
-                                                      .master = &master,
-                                                      .csv = csv ? &*csv : nullptr});
+  const std::vector<tune::Row> rows =
+      run_rows(runs, options.run, master, csv ? &*csv : nullptr, messages, !options.quiet);
   if (csv) messages.note(options.runs);
 
   const auto all = tune::sensitivities(design, runs, rows);
   // Files come before what is printed: a reader that ends early ends the program.
-  write_table(options.out, tune::sensitivity_headings(design.method),
-              tune::sensitivity_rows(design, runs, all), options.force, inputs);
+  tune::write_table(options.out, tune::sensitivity_headings(design.method),
+                    tune::sensitivity_rows(design, runs, all), options.force, inputs);
   if (!options.out.empty()) messages.note(options.out);
   if (options.json)
     fmt::print("{}", tune::sensitivity_json(design, runs, all));
@@ -404,38 +325,34 @@ ExitCode merge_all(const MergeOptions& options) {
 }  // namespace
 
 void add_sweep(CLI::App& app, Action& action) {
-  auto options = std::make_shared<SweepOptions>();
   CLI::App& sub = subcommand(
       app, "sweep", "Run an experiment with many values and collect one table",
       "sinew sweep experiments/leg-in-air.toml --vary \"joint.hip.angle_gain=0.02:0.1:5 %/count\" "
       "--report \"joints.hip.tracking_rms_rad [deg]\" -o gain.csv");
-  sub.add_option("FILE", options->file, "experiment file, or plan of a sweep")->required();
+  SweepOptions& options = runs(sub, action, sweep_all);
+  sub.add_option("FILE", options.file, "experiment file, or plan of a sweep")->required();
   add_words(
-      sub, "--vary", options->study_options.study.vary,
+      sub, "--vary", options.study_options.study.vary,
       "KEY=VALUES: values of a key, \"1,2,5 lbf\" or from:to:count with a unit; if repeated, all "
       "combinations");
-  add_runs(sub, options->study_options.study, options->runs);
-  sub.add_option("--shard", options->runs.shard,
+  add_runs(sub, options.study_options.study, options.runs);
+  sub.add_option("--shard", options.runs.shard,
                  "I/N: run only every N-th point, from the I-th on; sinew merge joins the files")
       ->needs(sub.get_option("--results"));
-  add_sample(sub, *options);
-  sub.add_option("--seeds", options->study_options.study.seeds,
+  add_sample(sub, options);
+  sub.add_option("--seeds", options.study_options.study.seeds,
                  "number of runs per point, with the noise of seeds 1 to N")
       ->transform(between(1, 10000));
-  sub.add_option("--largest", options->study_options.study.largest,
+  sub.add_option("--largest", options.study_options.study.largest,
                  "KEY=VALUES: find the largest value of one more key, for which --where holds");
   add_words(
-      sub, "--where", options->study_options.study.where,
+      sub, "--where", options.study_options.study.where,
       "CONDITION: \"key < value\" of summary.json, also <=, >, >=; if repeated, all must hold");
-  sub.add_option("--halvings", options->study_options.halvings,
+  sub.add_option("--halvings", options.study_options.halvings,
                  "number of times that --largest halves its interval; default: 6")
       ->transform(between(0, 50));
-  sub.add_option("-o,--output", options->out, "FILE: CSV file to write; default: stdout");
-  add_flags(sub, *options, "replace an existing file", "print the table as JSON");
-  sub.callback([=, &action] {
-    if (options->json) options->study_options.study.units.clear();
-    action = [=] { return sweep_all(*options); };
-  });
+  sub.add_option("-o,--output", options.out, "FILE: CSV file to write; default: stdout");
+  add_flags(sub, options, "replace an existing file", "print the table as JSON");
 }
 
 void add_tune(CLI::App& app, Action& action) {
@@ -458,33 +375,29 @@ void add_tune(CLI::App& app, Action& action) {
 }
 
 void add_sensitivity(CLI::App& app, Action& action) {
-  auto options = std::make_shared<SensitivityOptions>();
   CLI::App& sub = subcommand(
       app, "sensitivity", "Rank keys by how strongly each figure depends on their ranges",
       "sinew sensitivity experiments/walk-test-1.toml --range \"joint.hip.angle_gain=0.02:0.08 "
       "%/count\" --range \"air.supply.pressure=70:90 psi gauge\" --report \"trolley.distance_m "
       "[in]\"");
-  sub.add_option("FILE", options->study.experiment, "experiment file")->required();
-  add_runs(sub, options->study, options->run);
-  sub.add_option("--method", options->method,
+  SensitivityOptions& options = runs(sub, action, print_sensitivity);
+  sub.add_option("FILE", options.study.experiment, "experiment file")->required();
+  add_runs(sub, options.study, options.run);
+  sub.add_option("--method", options.method,
                  "sobol: shares of the variance; morris: effects along paths; ends: effects of "
                  "both ends of one range at a time; default: sobol")
       ->check(one_of({"sobol", "morris", "ends"}));
   sub.add_option(
-         "--points", options->points,
+         "--points", options.points,
          "sobol: a power of two; each point has as many runs as there are ranges, and 2 more "
          "(default: 256); morris: number of paths, each with one run more than there are "
          "ranges (default: 20)")
       ->transform(between(2, 1000000));
-  sub.add_option("--sample-seed", options->seed, "seed of the sample; default: 1")
+  sub.add_option("--sample-seed", options.seed, "seed of the sample; default: 1")
       ->transform(between(0, 2147483647));
-  sub.add_option("-o,--output", options->out, "FILE: also write the table to this CSV file");
-  sub.add_option("--runs", options->runs, "FILE: also write every run to this CSV file");
-  add_flags(sub, *options, "replace existing files", "print the result as JSON");
-  sub.callback([=, &action] {
-    if (options->json) options->study.units.clear();
-    action = [=] { return print_sensitivity(*options); };
-  });
+  sub.add_option("-o,--output", options.out, "FILE: also write the table to this CSV file");
+  sub.add_option("--runs", options.runs, "FILE: also write every run to this CSV file");
+  add_flags(sub, options, "replace existing files", "print the result as JSON");
 }
 
 void add_merge(CLI::App& app, Action& action) {

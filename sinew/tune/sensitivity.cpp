@@ -386,6 +386,15 @@ std::optional<Sensitivity> of_rows(const Design& design, std::span<const double>
 
 }  // namespace
 
+Design design_of(std::string_view method, std::size_t ranges, int count, int seed) {
+  Design out{.ranges = ranges, .seed = static_cast<std::uint64_t>(seed)};
+  if (method == "morris") out.method = Method::morris;
+  if (method == "ends") out.method = Method::one_at_a_time;
+  const int usual = out.method == Method::morris ? 20 : 256;
+  out.count = static_cast<std::size_t>(count > 0 ? count : usual);
+  return out;
+}
+
 std::size_t size(const Design& design) {
   if (design.method == Method::one_at_a_time) return 2 * design.ranges + 1;
   const std::size_t each = design.method == Method::morris ? 1 : 2;

@@ -19,6 +19,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sinew/tune/sweep.h"
@@ -36,6 +37,10 @@ struct Design {
   std::size_t count = 0;   // morris: paths r; sobol: rows n; one at a time: not used
   std::uint64_t seed = 1;
 };
+
+// Returns the design of "sobol", "morris" or "ends" (one at a time). A count of 0 is the usual one:
+// 256 rows or 20 paths.
+Design design_of(std::string_view method, std::size_t ranges, int count, int seed);
 
 // Returns the number of points: 2 d + 1, r (d + 1), n (d + 2).
 std::size_t size(const Design& design);

@@ -81,6 +81,16 @@ void TableFile::take_place() {
   if (file_) file_->commit();
 }
 
+void write_table(const std::string& file, const std::vector<std::string>& headings,
+                 const std::vector<std::vector<std::string>>& rows, bool force,
+                 const std::vector<std::filesystem::path>& inputs) {
+  if (file.empty()) return;
+  TableFile csv(file, headings, force, inputs);
+  for (const std::vector<std::string>& row : rows) csv.add(row);
+  csv.throw_failure();
+  csv.take_place();
+}
+
 std::vector<std::string> warnings(const std::vector<Row>& rows) {
   std::vector<std::string> out;
   const auto part =

@@ -54,6 +54,11 @@ class TableFile {
   std::exception_ptr failure_;
 };
 
+// Writes all rows to a file; nothing if it has no name. Throws like TableFile.
+void write_table(const std::string& file, const std::vector<std::string>& headings,
+                 const std::vector<std::vector<std::string>>& rows, bool force,
+                 const std::vector<std::filesystem::path>& inputs = {});
+
 // Returns warnings about rows without figures, and about trolleys that reached their track's end.
 std::vector<std::string> warnings(const std::vector<Row>& rows);
 

@@ -172,6 +172,17 @@ std::string text_of(const Tuning& tuning, const Tuned& tuned, const TableUnits* 
   return out;
 }
 
+const Candidate& candidate_of(const Tuned& tuned, int number) {
+  const std::size_t all = tuned.candidates.size();
+  const auto wanted = static_cast<std::size_t>(number);
+  if (number < 0 && tuned.best.size() == 1) return tuned.candidates[tuned.best.front()];
+  if (number >= 0 && wanted < all) return tuned.candidates[wanted];
+  config::fail(
+      {"candidate", 0, 0}, "",
+      number < 0 ? fmt::format("{} best candidates", tuned.best.size()) : std::to_string(wanted),
+      fmt::format("the number of one, 0 to {}", all - 1), "one of the table's");
+}
+
 std::string json_of(const Tuning& tuning, const Tuned& tuned) {
   Json out{{"format", "sinew.tuned/1"},
            {"title", tuning.title},

@@ -30,6 +30,10 @@ std::vector<std::string> candidate_cells(const Candidate& candidate);
 
 // --- a candidate as an experiment of its own ---
 
+// Returns the candidate of this number, or of -1 the only best one. Throws config::Error that
+// begins with "candidate".
+const Candidate& candidate_of(const Tuned& tuned, int number);
+
 // Returns the text of an experiment file for the path `file`: the tuning's experiment with the
 // candidate's values, their source and the goals reached. Its paths are relative to the folder of
 // `file`. Throws config::Error if the tuning's experiment cannot be read.

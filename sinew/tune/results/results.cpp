@@ -21,7 +21,6 @@
 #include "sinew/run/folder/files.h"
 #include "sinew/tune/results/database.h"
 #include "sinew/tune/results/request.h"
-#include "sinew/tune/table.h"
 #include "sinew/units/hash.h"
 
 namespace sinew::tune {
@@ -98,7 +97,10 @@ Merged merge(const std::vector<fs::path>& from, const fs::path& to) {
   return {request.points, rows.size(), rows.size() - before};
 }
 
-void open_results(const Sweep& s, const std::filesystem::path& file, Options& options,
+namespace {
+
+// Opens the study's file and sets the stored rows of the share as known.
+void open_results(const Sweep& s, const fs::path& file, Options& options,
                   std::optional<Results>& results, const run::Notices& notices) {
   if (file.empty()) return;
   results.emplace(file, request_of(s));
@@ -109,12 +111,14 @@ void open_results(const Sweep& s, const std::filesystem::path& file, Options& op
                              options.share.size(points(s))));
 }
 
-void check_rows(const std::vector<Row>& rows, const Sweep& s, std::size_t points,
+// Reports warnings about rows, and refuses an incomplete table. `kept` is the file with the rows,
+// empty if absent; `can_continue`: the same command runs the others.
+void check_rows(const std::vector<Row>& rows, const Sweep& s, const Share& share,
                 const std::string& kept, bool can_continue, const run::Notices& notices) {
   for (const std::string& text : warnings(rows)) notices.warning(text);
-  if (rows.size() < points)
+  if (const std::size_t all = share.size(points(s)); rows.size() < all)
     throw std::runtime_error(
-        fmt::format("interrupted: {} of {} points are done{}{}", rows.size(), points,
+        fmt::format("interrupted: {} of {} points are done{}{}", rows.size(), all,
                     kept.empty() ? "" : " and kept in " + kept,
                     can_continue ? "; the same command continues with the others" : ""));
   try {
@@ -123,6 +127,38 @@ void check_rows(const std::vector<Row>& rows, const Sweep& s, std::size_t points
     if (kept.empty()) throw;
     throw std::runtime_error(fmt::format("{}\n{}: holds the rows", e.what(), kept));
   }
+}
+
+}  // namespace
+
+std::vector<Row> sweep_and_store(const Sweep& s, const fs::path& file,
+                                 const StoredSweepOptions& options) {
+  Options own = options.sweep;
+  TableFile* const table = options.table;
+  std::optional<Results> results;
+  open_results(s, file, own, results, options.notices);
+  // Rows that a study's file keeps are not needed in half a table.
+  const bool late = results && table && !table->part().empty();
+  const auto stop = [&] {
+    if (options.ask_to_stop) options.ask_to_stop();
+  };
+  own.row = [&](const Row& row) {
+    if (table && !late && !table->add(row.cells)) stop();
+  };
+  own.done = [&](const Row& row) {
+    if (results && !results->add(row)) stop();
+  };
+  std::vector<Row> rows = sweep(s, own);
+  if (results) results->throw_failure();
+  if (table) table->throw_failure();
+  check_rows(rows, s, own.share, results || !table ? file.string() : table->part(),
+             results.has_value(), options.notices);
+  if (!table) return rows;
+  if (late)
+    for (const Row& row : rows) table->add(row.cells);
+  table->throw_failure();
+  table->take_place();
+  return rows;
 }
 
 namespace {

@@ -20,6 +20,7 @@
 #include "sinew/run/folder/notices.h"
 #include "sinew/tune/results/database.h"
 #include "sinew/tune/results/request.h"
+#include "sinew/tune/table.h"
 
 namespace sinew::tune {
 
@@ -94,18 +95,22 @@ struct StoredStudy {
 // file may be written meanwhile.
 StoredStudy read_results(const std::filesystem::path& file);
 
-// A sweep whose rows are stored at once, and its messages.
+// A sweep whose rows are stored at once, in a study's file and as a table.
 
-// Opens the study's file and sets the stored rows of the options' share as known, so that they are
-// not run again. Reports their number. Throws like Results.
-void open_results(const Sweep& sweep, const std::filesystem::path& file, Options& options,
-                  std::optional<Results>& results, const run::Notices& notices);
+// Options of a sweep with a file.
+struct StoredSweepOptions {
+  Options sweep;                           // `known`, `row` and `done` are not used
+  TableFile* table = nullptr;              // takes all rows; null: none
+  std::function<void()> ask_to_stop = {};  // called if a row cannot be written
+  run::Notices notices = {};
+};
 
-// Reports warnings about rows, and refuses an incomplete table of so many points. `kept` is the
-// file with the rows, empty if absent; `can_continue` states that the same command runs the
-// others. Throws std::runtime_error, or config::Error if no row has a figure.
-void check_rows(const std::vector<Row>& rows, const Sweep& sweep, std::size_t points,
-                const std::string& kept, bool can_continue, const run::Notices& notices);
+// Runs the points of the share that the file lacks, and returns all rows of the share; an empty
+// name stores none. The table is put in its place. Reports the number of stored rows, and warnings
+// about rows. Throws std::runtime_error if points are missing, config::Error if no row has a
+// figure, both with the name of what holds the rows; otherwise like sweep() and Results.
+std::vector<Row> sweep_and_store(const Sweep& sweep, const std::filesystem::path& file,
+                                 const StoredSweepOptions& options);
 
 // Merging of the files of one study's shares.
 
