@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -14,7 +13,7 @@
 #include "sinew/config/setting.h"
 #include "sinew/host/module.h"
 #include "sinew/json/json.h"
-#include "sinew/report/text/text_table.h"
+#include "sinew/report/figures/gallery.h"
 #include "sinew/run/folder/drawn_run.h"
 #include "sinew/run/folder/figure_files.h"
 #include "sinew/run/folder/files.h"
@@ -141,17 +140,6 @@ std::vector<std::pair<fs::path, std::string>> folders_of(const FiguresOptions& r
   return out;
 }
 
-void print(const Json& runs) {
-  for (const Json& run : runs) {
-    fmt::print("{}\n", run["folder"].string());
-    report::TextTable table({"figure", "", "curves"},
-                            {report::TextTable::Align::left, report::TextTable::Align::left});
-    for (const Json& f : run["figures"])
-      table.add({f["figure"].string(), f["title"].string(), std::to_string(f["curves"].size())});
-    fmt::print("{}", table.text());
-  }
-}
-
 ExitCode draw_runs(const FiguresOptions& request) {
   const Messages messages(request.quiet);
   const run::DrawingRequest drawing = drawing_of(request);
@@ -177,7 +165,8 @@ ExitCode draw_runs(const FiguresOptions& request) {
   if (request.json)
     fmt::print("{}\n", out.text(2));
   else
-    print(out["runs"]);
+    for (const Json& run : out["runs"])
+      fmt::print("{}\n{}", run["folder"].string(), report::text_of_figures(run["figures"]));
   return ok;
 }
 
@@ -221,8 +210,7 @@ void add_figures(CLI::App& app, Action& action) {
       "-o,--output", options->out,
       "DIR: folder for the figures and index.json; default for runs: figures/ in the log's folder");
   sub.add_option("--root", options->root, "DIR: parent of robots/, for --thesis; default: .");
-  sub.add_option("--format", options->formats, "FORMAT: pdf, svg, png or csv; default: svg,png")
-      ->allow_extra_args(false);
+  add_words(sub, "--format", options->formats, "FORMAT: pdf, svg, png or csv; default: svg,png");
   add_options_of_runs(sub, *options, thesis);
   add_flags(sub, *options, "replace existing figures",
             "print index.json; of several runs, each one");

@@ -1,5 +1,6 @@
 // cli/hardware.cpp - commands for boards and other programs: doctor, bring-up, firmware and fmu.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <poll.h>
 
 #include <atomic>
@@ -18,7 +19,6 @@
 #include "sinew/experiment/experiment.h"
 #include "sinew/host/doctor.h"
 #include "sinew/host/realtime.h"
-#include "sinew/json/json.h"
 #include "sinew/run/bring_up/bring_up.h"
 #include "sinew/run/bring_up/firmware.h"
 #include "sinew/run/card/on_card.h"
@@ -32,50 +32,10 @@ namespace {
 
 // --- doctor ---
 
-using host::Verdict;
-
 struct DoctorOptions {
   std::string place = "simulated";
   bool json = false;
 };
-
-std::string_view word(Verdict v) {
-  return v == Verdict::good ? "good" : v == Verdict::advice ? "advice" : "missing";
-}
-
-void print(const std::vector<host::Finding>& findings) {
-  for (const host::Finding& f : findings) {
-    const std::string verdict = fmt::format("{:<8}", word(f.verdict));
-    fmt::print("{}{}: {}\n", f.verdict == Verdict::missing ? in_red(verdict) : verdict, f.subject,
-               f.found);
-    if (f.verdict == Verdict::good) continue;
-    fmt::print("        {}{}\n", f.why, f.place.empty() ? "" : fmt::format(" ({}:)", f.place));
-    if (!f.todo.empty()) fmt::print("        {}\n", f.todo);
-  }
-}
-
-void print_json(const std::vector<host::Finding>& findings, const DoctorOptions& options,
-                bool ready) {
-  Json list = Json::array();
-  for (const host::Finding& f : findings) {
-    Json item{
-        {"subject", f.subject}, {"verdict", word(f.verdict)}, {"found", f.found}, {"why", f.why}};
-    if (!f.place.empty()) item["place"] = f.place;
-    if (!f.todo.empty()) item["todo"] = f.todo;
-    list.push_back(std::move(item));
-  }
-  const Json all{{"format", "sinew.doctor/1"},
-                 {"place", options.place},
-                 {"ready", ready},
-                 {"findings", std::move(list)}};
-  fmt::print("{}\n", all.text(2));
-}
-
-// Measures as the real-time loop would run.
-host::Latency measure() {
-  const host::RealTime real_time;
-  return host::measure_latency(1);
-}
 
 // Returns nothing without the shipped experiments.
 std::optional<double> walks_per_second(const card::Properties& properties) {
@@ -90,21 +50,23 @@ std::optional<double> walks_per_second(const card::Properties& properties) {
 }
 
 ExitCode examine(const DoctorOptions& options) {
+  const auto measure = [] {
+    const host::RealTime as_in_the_loop;
+    return host::measure_latency(1);
+  };
   const std::vector<host::Finding> findings = host::examine({
       .latency = measure,
       .cards = card::list,
       .has_card_program = !card::walk_ptx().empty(),
       .card_speed = walks_per_second,
   });
-  const bool ready = host::is_ready(findings, options.place);
   if (options.json)
-    print_json(findings, options, ready);
+    fmt::print("{}\n", host::json_of(findings, options.place).text(2));
   else
-    print(findings);
-  if (!ready)
-    error(
-        fmt::format("{}: something that it needs is missing; what to do is above", options.place));
-  return ready ? ok : failed;
+    fmt::print("{}", host::text_of(findings, output_has_color()));
+  if (host::is_ready(findings, options.place)) return ok;
+  error(fmt::format("{}: something that it needs is missing; what to do is above", options.place));
+  return failed;
 }
 
 // --- bring-up ---
@@ -150,15 +112,10 @@ std::string problem_of_port(const std::string& place) {
   return "";
 }
 
-// An operator has to be at a machine.
-void refuse_yes_at_a_machine(const BringUpOptions& o) {
+ExitCode bring_up(const BringUpOptions& o) {
   if (o.yes && o.place.starts_with("serial:"))
     config::fail({"bring-up", 0, 0}, "--yes", "yes to everything at " + o.place,
                  "an operator at the keyboard: air may be open and persons near");
-}
-
-ExitCode bring_up(const BringUpOptions& o) {
-  refuse_yes_at_a_machine(o);
   const std::filesystem::path robot(o.robot);
   const std::filesystem::path folder =
       o.folder.empty() ? std::filesystem::path("bring-up") / robot.parent_path().filename()
@@ -198,10 +155,7 @@ struct FirmwareOptions {
 };
 
 std::string names_of_boards() {
-  std::string out;
-  for (const run::FirmwareBoard& b : run::firmware_boards())
-    out += (out.empty() ? "" : ", ") + std::string(b.name);
-  return out;
+  return fmt::format("{}", fmt::join(config::names_of(run::firmware_boards()), ", "));
 }
 
 void print_flash(const run::FirmwareBoard& board, const std::string& file) {
@@ -219,6 +173,14 @@ ExitCode build(const FirmwareOptions& o) {
   Messages(false).note(
       fmt::format("built {}, whose outputs are {} where a coil has current; onto the board with",
                   o.out, low ? "0, by wiring.polarity," : "1"));
+  print_flash(board, o.out);
+  return ok;
+}
+
+ExitCode flash(const FirmwareOptions& o) {
+  const run::FirmwareBoard& board = run::firmware_board(o.board);
+  if (!std::filesystem::is_regular_file(o.out))
+    config::fail({o.out, 0, 0}, "", "no such file", "what sinew firmware build has made");
   print_flash(board, o.out);
   return ok;
 }
@@ -276,38 +238,30 @@ void add_bring_up(CLI::App& app, Action& action) {
 }
 
 void add_firmware(CLI::App& app, Action& action) {
-  auto o = std::make_shared<FirmwareOptions>();
   CLI::App& group = subcommand(app, "firmware", "Build a board's program and draw its wiring",
                                "sinew firmware build robots/leg/robot.toml stm32f405 -o leg.elf");
   group.require_subcommand();
+  const auto add = [&](CLI::App& sub, FirmwareOptions& o, const char* files) {
+    sub.add_option("ROBOT", o.robot, "robot file")->required();
+    sub.add_option("BOARD", o.board, names_of_boards())->required();
+    sub.add_option("-o,--output", o.out, files)->required();
+    sub.add_flag("--force", o.force, "replace an existing file");
+  };
   CLI::App& made = subcommand(group, "build", "Build a board's program if the robot fits on it",
                               "sinew firmware build robots/leg/robot.toml stm32f405 -o leg.elf");
-  const auto add = [&](CLI::App& sub, const char* files) {
-    sub.add_option("ROBOT", o->robot, "robot file")->required();
-    sub.add_option("BOARD", o->board, names_of_boards())->required();
-    sub.add_option("-o,--output", o->out, files)->required();
-    sub.add_flag("--force", o->force, "replace an existing file");
-  };
-  add(made, "FILE: .elf, .hex or .bin file to write");
-  made.add_option("--sources", o->sources, "DIR: folder of Sinew's sources; default: this one");
-  made.callback([=, &action] { action = [=] { return build(*o); }; });
+  FirmwareOptions& program = runs(made, action, build);
+  add(made, program, "FILE: .elf, .hex or .bin file to write");
+  made.add_option("--sources", program.sources,
+                  "DIR: folder of Sinew's sources; default: this one");
   CLI::App& drawn = subcommand(group, "wiring", "Draw which wire goes to which pin",
                                "sinew firmware wiring robots/leg/robot.toml teensy41 -o leg.svg");
-  add(drawn, "FILE: .svg file to write");
-  drawn.callback([=, &action] { action = [=] { return wiring(*o); }; });
-  CLI::App& flash = subcommand(group, "flash", "Print the command that brings a program to a board",
-                               "sinew firmware flash stm32f405 leg.elf");
-  flash.add_option("BOARD", o->board, names_of_boards())->required();
-  flash.add_option("FILE", o->out, "program that sinew firmware build has made")->required();
-  flash.callback([=, &action] {
-    action = [=] {
-      const run::FirmwareBoard& board = run::firmware_board(o->board);
-      if (!std::filesystem::is_regular_file(o->out))
-        config::fail({o->out, 0, 0}, "", "no such file", "what sinew firmware build has made");
-      print_flash(board, o->out);
-      return ok;
-    };
-  });
+  add(drawn, runs(drawn, action, wiring), "FILE: .svg file to write");
+  CLI::App& flashed =
+      subcommand(group, "flash", "Print the command that brings a program to a board",
+                 "sinew firmware flash stm32f405 leg.elf");
+  FirmwareOptions& o = runs(flashed, action, flash);
+  flashed.add_option("BOARD", o.board, names_of_boards())->required();
+  flashed.add_option("FILE", o.out, "program that sinew firmware build has made")->required();
 }
 
 void add_fmu(CLI::App& app, Action& action) {
@@ -330,15 +284,11 @@ void add_fmu(CLI::App& app, Action& action) {
   sub.add_flag("--force", options.force, "replace an existing file");
   sub.add_option("--muscle", request.muscle, "NAME: export only this muscle, with its valves");
   sub.add_flag("--without-valves", request.without_valves, "make the muscle's pressure an input");
-  sub.add_option("--joint", request.joints, "NAME: export this joint with its muscles")
-      ->allow_extra_args(false);
+  add_words(sub, "--joint", request.joints, "NAME: export this joint with its muscles");
   sub.add_option("--actuator", request.actuator, "NAME: actuator, where the file has several");
-  sub.add_option("--input", request.inputs, "KEY: setting as an input, control.stiffness.JOINT")
-      ->allow_extra_args(false);
-  sub.add_option("--output", request.outputs, "CHANNEL: channel as an output; default: all")
-      ->allow_extra_args(false);
-  sub.add_option("--parameter", request.parameters, "KEY: value that an importer may set")
-      ->allow_extra_args(false);
+  add_words(sub, "--input", request.inputs, "KEY: setting as an input, control.stiffness.JOINT");
+  add_words(sub, "--output", request.outputs, "CHANNEL: channel as an output; default: all");
+  add_words(sub, "--parameter", request.parameters, "KEY: value that an importer may set");
   sub.add_option("--fmi", request.version, "version of FMI")
       ->transform(between(2, 3))
       ->capture_default_str();

@@ -31,8 +31,8 @@ bool takes_color(int stream) {
   return is_terminal(stream) && !(no_color && *no_color);
 }
 
-std::string in_color(int stream, std::string_view text, std::string_view code) {
-  if (!takes_color(stream)) return std::string(text);
+std::string in_color(std::string_view text, std::string_view code) {
+  if (!takes_color(STDERR_FILENO)) return std::string(text);
   return fmt::format("\033[{}m{}\033[0m", code, text);
 }
 
@@ -51,13 +51,13 @@ void fill_closed_streams() {
 
 // Each line starts with its place, so that editors can jump there.
 void error(std::string_view text) {
-  to_stderr(in_color(STDERR_FILENO, config::printable(as_options(text)), "31") + "\n");
+  to_stderr(in_color(config::printable(as_options(text)), "31") + "\n");
 }
 
 void Messages::warning(std::string_view text) const {
   if (!quiet_)
-    to_stderr(fmt::format("{} {}\n", in_color(STDERR_FILENO, "warning:", "33"),
-                          config::printable(as_options(text))));
+    to_stderr(
+        fmt::format("{} {}\n", in_color("warning:", "33"), config::printable(as_options(text))));
 }
 
 void Messages::note(std::string_view text) const {
@@ -76,8 +76,6 @@ std::size_t width_of_output() {
 }
 
 bool output_has_color() { return takes_color(STDOUT_FILENO); }
-
-std::string in_red(std::string_view text) { return in_color(STDOUT_FILENO, text, "31"); }
 
 ProgressBar::ProgressBar(const std::atomic<std::int64_t>& now, std::int64_t end, Steps steps,
                          bool quiet)

@@ -7,7 +7,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <thread>
 
@@ -31,7 +30,6 @@ class Messages {
   void warning(std::string_view text) const;
   void note(std::string_view text) const;
   run::Notices notices() const;  // passes them to the library
-  bool quiet() const { return quiet_; }
 
  private:
   bool quiet_;
@@ -40,8 +38,7 @@ class Messages {
 // Returns the letters in a line of stdout; 0 where it is no terminal.
 std::size_t width_of_output();
 
-// Returns the text in red; plain where stdout takes no color.
-std::string in_red(std::string_view text);
+// Returns whether stdout takes color.
 bool output_has_color();
 
 // One step of a progress bar, in the unit that is shown.

@@ -319,4 +319,41 @@ bool is_ready(const std::vector<Finding>& findings, const std::string& place) {
   return true;
 }
 
+namespace {
+
+std::string_view word(Verdict v) {
+  return v == Verdict::good ? "good" : v == Verdict::advice ? "advice" : "missing";
+}
+
+}  // namespace
+
+std::string text_of(const std::vector<Finding>& findings, bool color) {
+  std::string out;
+  for (const Finding& f : findings) {
+    const std::string verdict = fmt::format("{:<8}", word(f.verdict));
+    const bool red = color && f.verdict == Verdict::missing;
+    out += red ? "\033[31m" + verdict + "\033[0m" : verdict;
+    out += f.subject + ": " + f.found + "\n";
+    if (f.verdict == Verdict::good) continue;
+    out += fmt::format("        {}{}\n", f.why, f.place.empty() ? "" : " (" + f.place + ":)");
+    if (!f.todo.empty()) out += "        " + f.todo + "\n";
+  }
+  return out;
+}
+
+Json json_of(const std::vector<Finding>& findings, const std::string& place) {
+  Json list = Json::array();
+  for (const Finding& f : findings) {
+    Json item{
+        {"subject", f.subject}, {"verdict", word(f.verdict)}, {"found", f.found}, {"why", f.why}};
+    if (!f.place.empty()) item["place"] = f.place;
+    if (!f.todo.empty()) item["todo"] = f.todo;
+    list.push_back(std::move(item));
+  }
+  return {{"format", "sinew.doctor/1"},
+          {"place", place},
+          {"ready", is_ready(findings, place)},
+          {"findings", std::move(list)}};
+}
+
 }  // namespace sinew::host

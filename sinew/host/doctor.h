@@ -13,6 +13,7 @@
 
 #include "sinew/card/driver.h"
 #include "sinew/host/realtime.h"
+#include "sinew/json/json.h"
 
 namespace sinew::host {
 
@@ -49,6 +50,10 @@ std::vector<Finding> examine(const DoctorOptions& options);
 
 // Returns whether everything that this kind of place needs is available. `simulated` needs nothing.
 bool is_ready(const std::vector<Finding>& findings, const std::string& place);
+
+// Return the findings as text, with missing ones in red if `color`, and in format sinew.doctor/1.
+std::string text_of(const std::vector<Finding>& findings, bool color);
+Json json_of(const std::vector<Finding>& findings, const std::string& place);
 
 // Readers of system files below a root: text, devices, groups and limits of this process.
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <string_view>
 
-#include "sinew/json/json.h"
 #include "sinew/report/page/html.h"
+#include "sinew/report/text/text_table.h"
 
 namespace sinew::report {
 
@@ -404,6 +404,13 @@ std::string index_json(const Gallery& gallery) {
   out["figures"] = Json::array();
   for (const Exhibit& e : gallery.exhibits) out["figures"].push_back(json_of(e, gallery));
   return out.text(2) + "\n";
+}
+
+std::string text_of_figures(const Json& figures) {
+  TextTable table({"figure", "", "curves"}, {TextTable::Align::left, TextTable::Align::left});
+  for (const Json& f : figures)
+    table.add({f["figure"].string(), f["title"].string(), std::to_string(f["curves"].size())});
+  return table.text();
 }
 
 Tally tally(const Gallery& gallery) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sinew/json/json.h"
 #include "sinew/report/figures/claim.h"
 #include "sinew/report/figures/figure.h"
 
@@ -35,6 +36,9 @@ std::string index_html(const Gallery& gallery);
 // Returns "sinew.figures/1": figures with their curves, files and missing parts, claims with class
 // and verdict, and the number of each.
 std::string index_json(const Gallery& gallery);
+
+// Returns a table of such figures: name, title and number of curves.
+std::string text_of_figures(const Json& figures);
 
 // Counts the statements of all figures.
 Tally tally(const Gallery& gallery);
