@@ -1,11 +1,7 @@
 // cli/calculators.cpp - the calculators: actuator, valve and kinematics.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +17,6 @@
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/delay.h"
-#include "sinew/gas/heat.h"
 #include "sinew/gas/valve.h"
 #include "sinew/gas/valve_flow.h"
 #include "sinew/json/json.h"
@@ -77,12 +72,10 @@ ExitCode run_actuator(const ActuatorOptions& options) {
                             config::gauge_air_pressure(air.atmosphere));
   const double external = quantity_setting("--external-volume", options.external_volume, "m3",
                                            air.atmosphere, air_volume);
-
-  const double velocity =
-      options.velocity.empty()
-          ? Point::not_given
-          : quantity_setting("--velocity", options.velocity, "m/s", air.atmosphere,
-                             {-100, 100, "a muscle's end is slower than 100 m/s"});
+  double velocity = Point::not_given;
+  if (!options.velocity.empty())
+    velocity = quantity_setting("--velocity", options.velocity, "m/s", air.atmosphere,
+                                {-100, 100, "a muscle's end is slower than 100 m/s"});
 
   const actuator::Surroundings around{air.atmosphere, air.polytropic_exponent, external};
   std::vector<Point> points;
@@ -101,10 +94,10 @@ ExitCode run_actuator(const ActuatorOptions& options) {
     fmt::print("{}\n", out.text(2));
     return ok;
   }
-  const config::UnitsToShow chosen = chosen_units(options.units, units::UnitSet::si);
-  const units::ShownUnits* shown = chosen.is_requested ? &chosen.units : nullptr;
-  fmt::print("{}", points.size() == 1 ? run::text_of(points[0], shown)
-                                      : run::table_of(points, lengths.unit, pressures.unit, shown));
+  const config::UnitsToShow units = chosen_units(options.units, units::UnitSet::si);
+  fmt::print("{}", points.size() == 1
+                       ? run::text_of(points[0], units.requested())
+                       : run::table_of(points, lengths.unit, pressures.unit, units.requested()));
   warn(points, Messages(options.quiet));
   return ok;
 }
@@ -179,10 +172,9 @@ ExitCode run_valve(const ValveOptions& options) {
     fmt::print("{}\n", (Json::parse(run::json_of(valve, f, times, duties))).text(2));
     return ok;
   }
-  const config::UnitsToShow chosen = chosen_units(options.units, units::UnitSet::si);
-  const units::ShownUnits* shown = chosen.is_requested ? &chosen.units : nullptr;
-  fmt::print("{}{}{}", run::text_of(valve, f, shown),
-             run::text_of(times, volume, f, shown, air.atmosphere),
+  const config::UnitsToShow units = chosen_units(options.units, units::UnitSet::si);
+  fmt::print("{}{}{}", run::text_of(valve, f, units.requested()),
+             run::text_of(times, volume, f, units.requested(), air.atmosphere),
              run::text_of(duties, options.frequency));
   return ok;
 }

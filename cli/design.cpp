@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "cli/command.h"
 #include "cli/option_groups.h"
@@ -50,22 +49,6 @@ struct DesignOptions : Flags {
   std::string out, report, units;
 };
 
-// Returns the chosen units, else metric ones.
-config::UnitsToShow design_units(const std::string& option) {
-  config::UnitsToShow out = chosen_units(option, units::UnitSet::metric);
-  out.is_requested = true;
-  return out;
-}
-
-// Returns the files that a calculation reads.
-template <class Settings>
-std::vector<std::string> inputs_of(const Settings& settings) {
-  std::vector<std::string> out;
-  if constexpr (requires { settings.actuator; }) out.push_back(settings.actuator);
-  if constexpr (requires { settings.base; }) out.push_back(settings.base);
-  return out;
-}
-
 // Warns if the robot that was written cannot be simulated, such as one whose sensor would leave its
 // converter's range.
 void warn_of_errors(const std::string& robot, const Messages& messages) {
@@ -87,8 +70,10 @@ ExitCode run_design(const DesignOptions<Settings>& options) {
                    "a name of its own, such as page.html");
     refuse_to_replace(options.report, options.force, design_page);
   }
-  if (!options.out.empty())
-    refuse_to_replace(options.out, options.force, robot_file, inputs_of(options.settings));
+  if constexpr (requires { options.settings.base; })  // of a joint: only it is written
+    if (!options.out.empty())
+      refuse_to_replace(options.out, options.force, robot_file,
+                        {options.settings.actuator, options.settings.base});
   const design::Result result = design::design(options.settings);
   const Messages messages(options.quiet);
   for (const std::string& warning : result.warnings) messages.warning(warning);
@@ -103,37 +88,38 @@ ExitCode run_design(const DesignOptions<Settings>& options) {
   if (!options.report.empty())
     write_output(options.report, design::page_of(result, units::atmosphere, SINEW_VERSION),
                  options.quiet);
-  if (options.json)
+  if (options.json) {
     fmt::print("{}\n", design::to_json(result).text(2));
-  else if (result.refused.empty())
-    fmt::print("{}", as_options(design::text_of(result, {design_units(options.units),
-                                                         units::atmosphere, width_of_output()})));
+  } else if (result.refused.empty()) {
+    config::UnitsToShow units = chosen_units(options.units, units::UnitSet::metric);
+    units.is_requested = true;
+    fmt::print("{}",
+               as_options(design::text_of(result, {units, units::atmosphere, width_of_output()})));
+  }
   if (!result.refused.empty()) error(result.refused);
   return result.refused.empty() ? ok : failed;
 }
 
 template <class Settings>
 void add_calculation(CLI::App& app, Action& action) {
-  auto options = std::make_shared<DesignOptions<Settings>>();
-  const config::MethodRow row = config::SettingList(options->settings).of;
+  const config::MethodRow row = config::SettingList(Settings()).of;
   const DesignHelp& help = *std::ranges::find(designs, row.name, &DesignHelp::method);
-  CLI::App& sub =
-      subcommand(app, std::string(row.name), std::string(row.doc), std::string(help.example));
+  CLI::App& sub = subcommand(app, row.name, row.doc, help.example);
+  DesignOptions<Settings>& options = runs(sub, action, run_design<Settings>);
   SettingOptions rows(sub);
-  fields(rows, options->settings);
-  if (!help.out.empty()) sub.add_option("-o,--out", options->out, std::string(help.out));
-  sub.add_option("--report", options->report, "FILE: page to write, with tables and plots");
-  add_units(sub, options->units, "printed numbers (default: metric); --json is in SI");
-  add_flags(sub, *options, "replace an existing file", "print the result as JSON, in SI",
+  fields(rows, options.settings);
+  if (!help.out.empty()) sub.add_option("-o,--out", options.out, std::string(help.out));
+  sub.add_option("--report", options.report, "FILE: page to write, with tables and plots");
+  add_units(sub, options.units, "printed numbers (default: metric); --json is in SI");
+  add_flags(sub, options, "replace an existing file", "print the result as JSON, in SI",
             "print only the result and errors");
-  sub.callback([options, &action] { action = [options] { return run_design(*options); }; });
 }
 
 }  // namespace
 
 void add_design(CLI::App& app, Action& action) {
   CLI::App& sub = subcommand(app, "design", "Choose muscles, valves and air for a robot on paper",
-                             std::string(designs[0].example));
+                             designs[0].example);
   sub.require_subcommand();
   design::for_each_design(
       [&]<class Settings>(const Settings&) { add_calculation<Settings>(sub, action); });

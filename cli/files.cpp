@@ -24,26 +24,21 @@ struct NewCommandOptions {
   files::NewOptions how;
 };
 
-// Returns the commands that use the new file, with quotes for a shell.
-std::vector<std::string> next_commands(const NewCommandOptions& options,
-                                       const std::string& written) {
-  const std::string file = written.find(' ') == written.npos ? written : "\"" + written + "\"";
-  const std::string &kind = options.kind, &name = options.name;
-  std::vector<std::string> out{"sinew check " + file};
-  if (kind == "robot")
-    out.push_back(fmt::format("sinew new experiment {}-moves --of {}", name, file));
-  if (kind == "actuator")
-    out.push_back(fmt::format("sinew identify static FORCES.csv --actuator {}", file));
-  if (kind == "experiment" || kind == "rig") out.push_back("sinew run " + file);
-  if (kind == "experiment")
-    out.push_back(fmt::format("sinew new plan {}-gains --of {}", name, file));
-  if (kind == "plan") out.push_back(fmt::format("sinew sweep {} -o {}.csv", file, name));
-  if (kind == "tuning") out.push_back(fmt::format("sinew tune {} -o {}.csv", file, name));
-  if (kind == "mapping")
-    out.push_back(
-        fmt::format("sinew import RECORDING.csv --mapping {} --experiment EXPERIMENT.toml", file));
-  return out;
-}
+// Commands that use a new file of this kind; an empty one: of any kind.
+struct NextCommand {
+  std::string_view kind, command;
+};
+constexpr NextCommand next_commands[] = {
+    {"", "sinew check {file}"},
+    {"robot", "sinew new experiment {name}-moves --of {file}"},
+    {"actuator", "sinew identify static FORCES.csv --actuator {file}"},
+    {"experiment", "sinew run {file}"},
+    {"rig", "sinew run {file}"},
+    {"experiment", "sinew new plan {name}-gains --of {file}"},
+    {"plan", "sinew sweep {file} -o {name}.csv"},
+    {"tuning", "sinew tune {file} -o {name}.csv"},
+    {"mapping", "sinew import RECORDING.csv --mapping {file} --experiment EXPERIMENT.toml"},
+};
 
 ExitCode write(const NewCommandOptions& options) {
   const files::NewFiles made = files::write_new(options.kind, options.name, options.how);
@@ -55,8 +50,12 @@ ExitCode write(const NewCommandOptions& options) {
     return failed;
   }
   messages.note("valid as written; its comments describe each table. Next:");
-  for (const std::string& command : next_commands(options, made.files[0]))
-    messages.note("  " + command);
+  std::string file = made.files[0];
+  if (file.find(' ') != file.npos) file = '"' + file + '"';  // for a shell
+  for (const auto& [kind, command] : next_commands)
+    if (kind.empty() || kind == options.kind)
+      messages.note("  " + fmt::format(fmt::runtime(command), fmt::arg("file", file),
+                                       fmt::arg("name", options.name)));
   return ok;
 }
 
@@ -88,27 +87,19 @@ struct KeysOptions {
   bool json = false, page = false;
 };
 
-// The schema of each kind has what all kinds have.
-std::vector<std::string> kinds_with_a_schema() {
-  std::vector<std::string> out = files::key_kinds();
-  std::erase(out, "any");
-  return out;
-}
-
 ExitCode keys(const KeysOptions& options) {
-  const bool all = options.words.empty() && options.kind.empty();
   if (options.page) {
     fmt::print("{}", files::page_of_keys());
   } else if (!options.schema.empty()) {
     fmt::print("{}", files::schema_of(options.schema));
-  } else if (options.json) {
-    const std::vector<files::Key> found = files::find_keys(options.words, options.kind);
-    fmt::print("{}\n", (Json::parse(files::json_of(found))).text(2));
-  } else if (all) {
+  } else if (options.words.empty() && options.kind.empty() && !options.json) {
     fmt::print("{}", files::overview_of_keys(width_of_output()));
   } else {
     const std::vector<files::Key> found = files::find_keys(options.words, options.kind);
-    fmt::print("{}", files::text_of(found, width_of_output()));
+    if (options.json)
+      fmt::print("{}\n", Json::parse(files::json_of(found)).text(2));
+    else
+      fmt::print("{}", files::text_of(found, width_of_output()));
   }
   return ok;
 }
@@ -129,7 +120,7 @@ ExitCode show(const ShowOptions& options) {
   if (options.json)
     fmt::print("{}\n", Json::parse(files::json_of(values)).text(2));
   else
-    fmt::print("{}", files::text_of(values, chosen.is_requested ? &chosen.units : nullptr));
+    fmt::print("{}", files::text_of(values, chosen.requested()));
   return ok;
 }
 
@@ -156,7 +147,7 @@ ExitCode check_all(const CheckOptions& options) {
 struct MigrateCommandOptions {
   std::vector<std::string> files;
   files::MigrateOptions how;
-  bool dry_run = false, json = false;
+  bool json = false;
 };
 
 // One file's failure does not keep the others from being migrated.
@@ -175,7 +166,7 @@ ExitCode migrate_all(const MigrateCommandOptions& options) {
     }
   }
   if (options.json) fmt::print("{}\n", report.text(2));
-  if (options.dry_run) Messages(false).note("nothing was written");
+  if (!options.how.write) Messages(false).note("nothing was written");
   return good ? ok : failed;
 }
 
@@ -217,9 +208,11 @@ void add_keys(CLI::App& app, Action& action) {
   CLI::Option* kind = sub.add_option("--kind", options.kind, "search only this kind of file")
                           ->check(one_of(files::key_kinds()));
   CLI::Option* json = sub.add_flag("--json", options.json, "print the result as JSON");
+  std::vector<std::string> with_schema = files::key_kinds();
+  std::erase(with_schema, "any");  // the schema of each kind has what all kinds have
   CLI::Option* schema = sub.add_option("--schema", options.schema,
                                        "print a JSON schema of this kind of file, for an editor")
-                            ->check(one_of(kinds_with_a_schema()));
+                            ->check(one_of(with_schema));
   CLI::Option* page = sub.add_flag("--page", options.page,
                                    "print all keys as Markdown, as in docs/reference/keys.md");
   CLI::Option* words = sub.get_option("WORD");
@@ -255,20 +248,16 @@ void add_check(CLI::App& app, Action& action) {
 }
 
 void add_migrate(CLI::App& app, Action& action) {
-  auto options = std::make_shared<MigrateCommandOptions>();
   CLI::App& sub = subcommand(app, "migrate", "Convert files of older formats; comments are kept",
                              "sinew migrate my-leg/*.toml --dry-run");
-  sub.add_option("FILE", options->files,
+  MigrateCommandOptions& options = runs(sub, action, migrate_all);
+  sub.add_option("FILE", options.files,
                  "experiment, rig, plan, tuning, robot, actuator, valves or wiring file")
       ->required();
-  sub.add_option("-o,--output", options->how.folder,
+  sub.add_option("-o,--output", options.how.folder,
                  "DIR: folder of the new files; default: in place of the old, kept as FILE.bak");
-  sub.add_flag("--dry-run", options->dry_run, "print what would be changed and write nothing");
-  sub.add_flag("--json", options->json, "print the result as JSON");
-  sub.callback([=, &action] {
-    options->how.write = !options->dry_run;
-    action = [=] { return migrate_all(*options); };
-  });
+  sub.add_flag("!--dry-run", options.how.write, "print what would be changed and write nothing");
+  sub.add_flag("--json", options.json, "print the result as JSON");
 }
 
 }  // namespace sinew::cli

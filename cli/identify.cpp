@@ -6,8 +6,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
+#include <map>
 #include <memory>
+#include <sstream>
 
 #include "cli/command.h"
 #include "cli/option_groups.h"
@@ -22,7 +23,6 @@
 #include "sinew/recording/stated.h"
 #include "sinew/report/page/page.h"
 #include "sinew/run/folder/files.h"
-#include "sinew/run/folder/run_folder.h"
 
 namespace sinew::cli {
 
@@ -173,17 +173,13 @@ void refuse_together(const Options<identify::GeometrySettings>& options) {
 std::vector<std::string> split_pairs(const std::vector<std::string>& texts) {
   std::vector<std::string> out;
   for (const std::string& text : texts) {
-    bool is_first = true;
-    for (std::size_t at = 0; at <= text.size();) {
-      const std::size_t comma = std::min(text.find(',', at), text.size());
-      const std::string piece = text.substr(at, comma - at);
-      if (is_first || piece.find('=') != piece.npos)
+    std::istringstream pieces(text + ",");
+    const std::size_t before = out.size();
+    for (std::string piece; std::getline(pieces, piece, ',');)
+      if (out.size() == before || piece.find('=') != piece.npos)
         out.push_back(piece);
       else
         out.back() += "," + piece;
-      is_first = false;
-      at = comma + 1;
-    }
   }
   return out;
 }
@@ -372,8 +368,7 @@ void add_method(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options<Settings>>();
   const identify::MethodRow row = identify::SettingList(options->settings).of;
   const MethodHelp& help = *std::ranges::find(methods, row.name, &MethodHelp::method);
-  CLI::App& sub =
-      subcommand(app, std::string(row.name), std::string(row.doc), std::string(help.example));
+  CLI::App& sub = subcommand(app, row.name, row.doc, help.example);
   add_data_options(sub, row.tables, options->data);
   SettingOptions rows(sub);
   fields(rows, options->settings);
@@ -400,8 +395,7 @@ ExitCode run_columns(const ColumnsOptions& options) {
     return ok;
   }
   refuse_to_replace(options.file, options.force, template_file);
-  run::write_file(options.file, text);
-  Messages(options.quiet).note(fmt::format("{}: written", options.file));
+  write_output(options.file, text, options.quiet);
   return ok;
 }
 
@@ -432,12 +426,11 @@ ExitCode run_force_beam(const ForceBeamOptions& options) {
     fmt::print("{}\n", json_of(s, wanted));
     return ok;
   }
-  const config::UnitsToShow chosen = chosen_units(options.units, units::UnitSet::si);
-  const units::ShownUnits* shown = chosen.is_requested ? &chosen.units : nullptr;
-  fmt::print("{}", text_of(s, shown));
+  const config::UnitsToShow units = chosen_units(options.units, units::UnitSet::si);
+  fmt::print("{}", text_of(s, units.requested()));
   if (wanted)
     fmt::print("\n{} with the gages, from the load:\n{}", options.settings.sensitivity,
-               text_of_places(s, *wanted, shown));
+               text_of_places(s, *wanted, units.requested()));
   for (const std::string& doubt : doubts(s)) Messages(options.quiet).warning(doubt);
   return ok;
 }
@@ -454,10 +447,9 @@ void add_identify(CLI::App& app, Action& action) {
 }
 
 void add_force_beam(CLI::App& app, Action& action) {
-  identify::TransducerSettings named;
-  const identify::MethodRow row = identify::SettingList(named).of;
+  const identify::MethodRow row = identify::SettingList(identify::TransducerSettings()).of;
   CLI::App& sub =
-      subcommand(app, std::string(row.name), std::string(row.doc),
+      subcommand(app, row.name, row.doc,
                  "sinew force-beam --load \"20 lbf\" --gain 400 --sensitivity \"0.1 V/lbf\"");
   ForceBeamOptions& options = runs(sub, action, run_force_beam);
   SettingOptions rows(sub);

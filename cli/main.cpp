@@ -2,13 +2,10 @@
 //
 // Results go to stdout, everything else to stderr. Exit codes: 0 done, 1 failed, 2 wrong usage;
 // a wrong value of an option is wrong usage.
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -108,13 +105,6 @@ std::string_view only_command(const std::vector<std::string>& words) {
   return it == std::end(commands) || it->name == "help" || it->name == "completion" ? "" : it->name;
 }
 
-bool could_be_shipped(const std::string& word) {
-  constexpr const char* folders[] = {"robots/", "experiments/", "studies/", "data/"};
-  std::error_code none;
-  return std::ranges::any_of(folders, [&](const char* f) { return word.starts_with(f); }) &&
-         !std::filesystem::exists(word, none);
-}
-
 // Returns the words of a line with names that help and `sinew list` show, such as
 // "experiments/walk-test-1.toml", as paths of Sinew's own files, where the current folder has no
 // file of that name. A file that a command writes keeps its name: the value of an option in
@@ -125,18 +115,9 @@ std::vector<std::string> with_shipped_files(std::vector<std::string> words) {
       "-o",        "--output", "--out",          "--report",       "--residuals",   "--runs",
       "--results", "--best",   "--save-mapping", "--actuator-out", "--predict-dat", "--template"};
   if (words.empty() || std::ranges::find(kept, words[0]) != std::end(kept)) return words;
-  for (std::size_t i = 1; i < words.size(); ++i) {
-    const std::string& before = words[i - 1];
-    if (std::ranges::find(written, before) != std::end(written) || !could_be_shipped(words[i]))
-      continue;
-    try {
-      std::error_code none;
-      const std::filesystem::path own = config::shipped_folder() / words[i];
-      if (std::filesystem::is_regular_file(own, none)) words[i] = own.string();
-    } catch (const config::Error&) {
-      return words;  // nothing is installed near the program: the command names what is missing
-    }
-  }
+  for (std::size_t i = 1; i < words.size(); ++i)
+    if (std::ranges::find(written, words[i - 1]) == std::end(written))
+      words[i] = config::or_shipped(words[i]);
   return words;
 }
 

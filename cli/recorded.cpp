@@ -44,49 +44,46 @@ constexpr int most_runs = 8;  // as many colors are distinct
 
 // The options as they are given.
 struct Alignment {
-  std::vector<std::string> align_by;
-  std::string align = "start", clock = "none", event;
-  double largest_shift = std::numeric_limits<double>::infinity();  // [s]
+  std::string align = "start", clock = "none";
+  report::AlignOptions options;
 
   report::AlignOptions align_options() const;
   std::string given() const;  // the setting of one that was given, "align_by"; "" for none
 };
 
 report::AlignOptions Alignment::align_options() const {
-  report::AlignOptions out;
-  out.event = event;
-  out.channels = align_by;
+  report::AlignOptions out = options;
   out.fit_clock = clock == "fit";
-  out.largest_shift = largest_shift;
   for (const auto by : {report::Align::sequence, report::Align::event, report::Align::correlation})
     if (to_text(by) == align) out.by = by;
   // An event or channels choose the way of alignment.
-  if (!event.empty()) out.by = report::Align::event;
-  if (!align_by.empty() && out.by == report::Align::start) out.by = report::Align::correlation;
+  if (!out.event.empty()) out.by = report::Align::event;
+  if (!out.channels.empty() && out.by == report::Align::start) out.by = report::Align::correlation;
   return out;
 }
 
 std::string Alignment::given() const {
   if (align != "start") return "align";
-  if (!event.empty()) return "event";
-  if (!align_by.empty()) return "align_by";
+  if (!options.event.empty()) return "event";
+  if (!options.channels.empty()) return "align_by";
   if (clock != "none") return "clock";
-  return largest_shift < std::numeric_limits<double>::infinity() ? "within" : "";
+  return options.largest_shift < std::numeric_limits<double>::infinity() ? "within" : "";
 }
 
 void add_alignment(CLI::App& sub, Alignment& alignment) {
   sub.add_option("--align", alignment.align, "how to align others with the first (default: start)")
       ->check(one_of({"start", "sequence", "event", "correlation"}));
   sub.add_option(
-      "--event", alignment.event,
+      "--event", alignment.options.event,
       "EVENT: for --align event: \"/joint/elbow/angle > 10 deg\"; default: first clear motion");
-  sub.add_option("--align-by", alignment.align_by,
+  sub.add_option("--align-by", alignment.options.channels,
                  "CHANNEL: channels to correlate; default: chosen automatically")
       ->expected(1, CLI::detail::expected_max_vector_size);
   sub.add_option("--clock", alignment.clock,
                  "fit: also correct the clock rates of the other runs; default: none")
       ->check(one_of({"none", "fit"}));
-  sub.add_option("--within", alignment.largest_shift, "largest shift [s]; default: no limit");
+  sub.add_option("--within", alignment.options.largest_shift,
+                 "largest shift [s]; default: no limit");
 }
 
 // --- report ---
@@ -130,16 +127,6 @@ struct CompareOptions : Flags {
   bool all = false;
 };
 
-report::ComparisonText shown_as(const CompareOptions& options) {
-  const fs::path first = run::run_files(options.runs.front()).resolved;
-  return {.units = chosen_units(options.units, units::UnitSet::thesis, first).units,
-          .all = options.all,
-          .width = width_of_output(),
-          .see_all = "--all",
-          .fit_clock = "--clock fit",
-          .color = output_has_color()};
-}
-
 // Refuses to replace a file without --force, and a run that is read.
 void refuse_outputs(const CompareOptions& options) {
   if (!options.out.empty()) report::require_page(options.out);
@@ -164,16 +151,21 @@ ExitCode compare_runs(const CompareOptions& options) {
     run::write_file(options.residuals, report::residuals_csv(comparison));
     messages.note(options.residuals);
   }
-  if (!options.out.empty()) {
-    const fs::path first = run::run_files(options.runs.front()).resolved;
-    const std::string page =
-        report::page(comparison, chosen_units(options.units, units::UnitSet::si, first).units);
-    write(options.out, page, messages);
-  }
+  const fs::path first = run::run_files(options.runs.front()).resolved;
+  const auto units = [&](units::UnitSet otherwise) {
+    return chosen_units(options.units, otherwise, first).units;
+  };
+  if (!options.out.empty())
+    write(options.out, report::page(comparison, units(units::UnitSet::si)), messages);
   if (options.json)
     fmt::print("{}", to_json(comparison));
   else
-    fmt::print("{}", text_of(comparison, shown_as(options)));
+    fmt::print("{}", text_of(comparison, {.units = units(units::UnitSet::thesis),
+                                          .all = options.all,
+                                          .width = width_of_output(),
+                                          .see_all = "--all",
+                                          .fit_clock = "--clock fit",
+                                          .color = output_has_color()}));
   return ok;
 }
 

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 
@@ -52,10 +50,9 @@ void print_verdicts(const analysis::Summary& summary, const analysis::Machine& m
 
 // --- run ---
 
-struct RunCommandOptions {
+struct RunCommandOptions : Flags {
   run::RunRequest run;
   double pace = 0;  // simulated seconds per second of wall time; 0: no limit
-  bool json = false, quiet = false;
 };
 
 // Prints verdicts or summary.json to stdout, and the place of the run, after `done`, to stderr.
@@ -74,7 +71,7 @@ void report_run(const run::StoredRun& kept, const RunCommandOptions& options,
                 const Messages& messages) {
   const config::UnitsToShow units =
       chosen_units(options.run.units, units::UnitSet::si, kept.folder / run::resolved_name);
-  print_stored(kept, options.json, units.is_requested ? &units.units : nullptr,
+  print_stored(kept, options.json, units.requested(),
                fmt::format("{:.2f} s in {:.3f} s, kept in ", kept.duration, kept.wall), messages);
 }
 
@@ -111,11 +108,8 @@ ExitCode run_experiment(const RunCommandOptions& options) {
 // Returns what is wrong with a pace, "" for nothing. No clock can wait for a slower one.
 std::string a_pace(const std::string& text) {
   constexpr double slowest = 1e-3;
-  double value = -1;
-  const char* last = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data(), last, value);
-  const bool number = error == std::errc{} && end == last && std::isfinite(value);
-  if (number && (value == 0 || value >= slowest)) return "";
+  const double value = recording::number_in(text).value_or(-1);
+  if (value == 0 || (value >= slowest && std::isfinite(value))) return "";
   return fmt::format("found \"{}\"; expected 0, or a number from {} on", text, slowest);
 }
 
@@ -140,8 +134,7 @@ void add_run_options(CLI::App& sub, const std::string& port, RunCommandOptions& 
                "aim at the nearest reachable point where the foot path is out of reach");
   sub.add_flag("!--no-report", request.report, "write no report.html");
   add_units(sub, request.units, "printed numbers and of the page; --json is in SI");
-  sub.add_flag("--json", options.json, "print summary.json in place of the results");
-  sub.add_flag("--quiet", options.quiet, "print only errors to stderr");
+  add_flags(sub, options, "", "print summary.json in place of the results");
 }
 
 // --- view ---
@@ -198,6 +191,10 @@ ExitCode view_live(const ViewOptions& o) {
   if (space_bar && space_bar->listens()) messages.note("the space bar stops the machine");
   run.go();
   return ok;
+}
+
+ExitCode view(const ViewOptions& o) {
+  return o.live.run.experiment.empty() ? view_recorded(o) : view_live(o);
 }
 
 // --- replay ---
@@ -265,13 +262,6 @@ void take_pairs(ImportOptions& options) {
     options.request.shifts[name] = value;
 }
 
-bool is_out_dat(const std::string& path) {
-  std::string begin(16, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  return thesis::is_out_dat(begin);
-}
-
 // Imports the thesis's own log, whose columns are fixed.
 run::StoredRun import_out_dat(const ImportOptions& options, const Messages& messages) {
   const run::ImportRequest& request = options.request;
@@ -312,7 +302,7 @@ ExitCode import_recording(const ImportOptions& given) {
   const Messages messages(options.quiet);
   take_pairs(options);
   options.request.join_at_end = options.join == "end";
-  if (is_out_dat(options.request.files.front()))
+  if (thesis::is_out_dat(options.request.files.front()))
     return report_import(import_out_dat(options, messages), options, messages);
   std::atomic<std::int64_t> read{0};
   options.request.read = &read;
@@ -324,9 +314,8 @@ ExitCode import_recording(const ImportOptions& given) {
 void add_mapping_options(CLI::App& sub, ImportOptions& options) {
   run::ImportRequest& request = options.request;
   add_table_options(sub, options.table, request.mapping.table);
-  sub.add_option("--scale", options.scales,
-                 "COLUMN=NUMBER: factor of a column, applied before --offset; -1 turns the sign")
-      ->allow_extra_args(false);
+  add_words(sub, "--scale", options.scales,
+            "COLUMN=NUMBER: factor of a column, applied before --offset; -1 turns the sign");
   sub.add_option("--mapping", request.mapping_file,
                  "FILE: file with options for columns, clock and tables, sinew.mapping/1");
   sub.add_option("--save-mapping", request.save_mapping, "FILE: write the options to such a file");
@@ -343,8 +332,7 @@ void add_clock_options(CLI::App& sub, ImportOptions& options) {
   sub.add_option("--join", options.join,
                  "how several files are joined, side by side in time or end to end; default: side")
       ->check(one_of({"side", "end"}));
-  sub.add_option("--shift", options.shifts, "FILE=TIME: time to add to the times of a file")
-      ->allow_extra_args(false);
+  add_words(sub, "--shift", options.shifts, "FILE=TIME: time to add to the times of a file");
 }
 
 // --- analyze ---
@@ -353,30 +341,6 @@ struct AnalyzeOptions : Flags {
   std::string run, machine, out, units;
   bool verdicts = false;
 };
-
-// The source reports whole runs, so a part of a run has no verdict.
-ExitCode report_analysis(const AnalyzeOptions& options, const Messages& messages,
-                         const signals::Table& table, analysis::Machine machine,
-                         const config::UnitsToShow& units) {
-  if (!table.complete) machine.reported.clear();
-  const analysis::Analysis a(table, std::move(machine));
-  const analysis::Summary& summary = a.summary;
-  for (const std::string& text : summary.warnings) messages.warning(text);
-  const std::string json = to_json(summary);
-  if (!options.out.empty()) {
-    run::refuse_to_overwrite(options.out, options.force,
-                             {run::run_files(options.run).log, options.machine}, run::summary_name);
-    run::write_file(options.out, json);
-  }
-  if (options.verdicts) {
-    fmt::print("{}\n", report::to_json(a.verdicts).text());
-  } else if (options.json) {
-    fmt::print("{}", json);
-  } else {
-    print_verdicts(summary, a.machine, units.is_requested ? &units.units : nullptr);
-  }
-  return ok;
-}
 
 ExitCode analyze_run(const AnalyzeOptions& options) {
   const Messages messages(options.quiet);
@@ -390,7 +354,24 @@ ExitCode analyze_run(const AnalyzeOptions& options) {
         " was cut off or is damaged; the numbers are of what stands before, without verdicts");
 
   const config::UnitsToShow units = chosen_units(options.units, units::UnitSet::si, &file);
-  return report_analysis(options, messages, table, analysis::read_machine(file), units);
+  analysis::Machine machine = analysis::read_machine(file);
+  // The source reports whole runs, so a part of a run has no verdict.
+  if (!table.complete) machine.reported.clear();
+  const analysis::Analysis a(table, std::move(machine));
+  for (const std::string& text : a.summary.warnings) messages.warning(text);
+  const std::string json = to_json(a.summary);
+  if (!options.out.empty()) {
+    run::refuse_to_overwrite(options.out, options.force, {run.log, options.machine},
+                             run::summary_name);
+    run::write_file(options.out, json);
+  }
+  if (options.verdicts)
+    fmt::print("{}\n", report::to_json(a.verdicts).text());
+  else if (options.json)
+    fmt::print("{}", json);
+  else
+    print_verdicts(a.summary, a.machine, units.requested());
+  return ok;
 }
 
 }  // namespace
@@ -407,37 +388,32 @@ void add_run(CLI::App& app, Action& action) {
 }
 
 void add_view(CLI::App& app, Action& action) {
-  auto options = std::make_shared<ViewOptions>();
   CLI::App& sub =
       subcommand(app, "view", "Show a run or a study in the browser, recorded or while it runs",
                  "sinew view --live experiments/tune-in-air.toml");
-  CLI::Option* dir = sub.add_option("DIR", options->what,
+  ViewOptions& options = runs(sub, action, view);
+  CLI::Option* dir = sub.add_option("DIR", options.what,
                                     "run folder, folder of runs, log file, or one or two study "
                                     "files; default: the newest run in runs/");
-  add_machine(sub, options->machine);
+  add_machine(sub, options.machine);
   CLI::Option* live =
-      sub.add_option("--live", options->live.run.experiment, "FILE: experiment to run and show");
+      sub.add_option("--live", options.live.run.experiment, "FILE: experiment to run and show");
   live->excludes(dir);
-  sub.add_option("--port", options->port,
+  sub.add_option("--port", options.port,
                  "port on 127.0.0.1, 0 for a free one; default: the same one for this folder")
       ->transform(between(0, 65535));
-  sub.add_flag("!--no-open", options->open, "print the address and open no browser");
-  options->live.pace = 1;
-  sub.add_option("--pace", options->live.pace,
+  sub.add_flag("!--no-open", options.open, "print the address and open no browser");
+  options.live.pace = 1;
+  sub.add_option("--pace", options.live.pace,
                  "simulated seconds per real second, 0 for no limit; default: 1")
       ->transform(passes(a_pace))
       ->needs(live);
-  sub.add_flag("--paused", options->paused, "begin when the page's button is pressed")->needs(live);
-  sub.add_flag("--once", options->once, "exit when the run ends")->needs(live);
-  add_run_options(sub, "--place", options->live);
+  sub.add_flag("--paused", options.paused, "begin when the page's button is pressed")->needs(live);
+  sub.add_flag("--once", options.once, "exit when the run ends")->needs(live);
+  add_run_options(sub, "--place", options.live);
   for (const char* of_a_run : {"--place", "--clear-fault", "--output", "--force", "--set",
                                "--allow-unreachable", "--no-report", "--units", "--json"})
     sub.get_option(of_a_run)->needs(live);
-  sub.callback([=, &action] {
-    action = [=] {
-      return options->live.run.experiment.empty() ? view_recorded(*options) : view_live(*options);
-    };
-  });
 }
 
 void add_replay(CLI::App& app, Action& action) {

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <vector>
 
@@ -50,6 +51,19 @@ fs::path shipped_folder() {
         if (is_it(place)) return fs::canonical(place, none);
   fail({"share/sinew", 0, 0}, "", "nothing near the program",
        "the robots and experiments that come with Sinew", "SINEW_SHARE=FOLDER in the environment");
+}
+
+std::string or_shipped(const std::string& name) {
+  constexpr const char* folders[] = {"robots/", "experiments/", "studies/", "data/"};
+  const bool is_below = std::ranges::any_of(folders, [&](auto f) { return name.starts_with(f); });
+  std::error_code none;
+  if (!is_below || fs::exists(name, none)) return name;
+  try {
+    const fs::path own = shipped_folder() / name;
+    return fs::is_regular_file(own, none) ? own.string() : name;
+  } catch (const Error&) {
+    return name;  // nothing is installed near the program: the command names what is missing
+  }
 }
 
 }  // namespace sinew::config

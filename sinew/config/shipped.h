@@ -7,11 +7,16 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace sinew::config {
 
 // Returns the folder that contains robots/, experiments/ and data/. Throws config::Error
 // if it is not found.
 std::filesystem::path shipped_folder();
+
+// Returns the path of the shipped file of this name, "experiments/walk-test-1.toml", if the current
+// folder has none; else the name.
+std::string or_shipped(const std::string& name);
 
 }  // namespace sinew::config

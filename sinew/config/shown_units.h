@@ -37,6 +37,9 @@ struct UnitsRequest {
 struct UnitsToShow {
   units::ShownUnits units;
   bool is_requested = false;  // whether any level gave units, so that `units` is not the default
+
+  // Returns the units if any level gave them; else null.
+  const units::ShownUnits* requested() const { return is_requested ? &units : nullptr; }
 };
 
 // Returns the units in which to show numbers. Throws Error with the place of an invalid text.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -268,8 +269,11 @@ void check_heading(const std::string& found, const std::string& wanted, const st
 
 }  // namespace
 
-bool is_out_dat(std::string_view begin) {
-  return begin.starts_with("mode timer") || begin.starts_with("mode\ttimer");
+bool is_out_dat(const std::filesystem::path& file) {
+  std::string begin(std::string_view("mode timer").size(), '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin == "mode timer" || begin == "mode\ttimer";
 }
 
 std::string write_out_dat(const signals::Table& table, const experiment::Experiment& e) {

@@ -12,6 +12,7 @@
 // it is locked. Joints with muscles follow in the robot's order.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -21,7 +22,7 @@
 namespace sinew::thesis {
 
 // Returns whether a file begins like such a log.
-bool is_out_dat(std::string_view begin);
+bool is_out_dat(const std::filesystem::path& file);
 
 // Returns the log. Throws config::Error if the robot or the table lacks data for a column.
 std::string write_out_dat(const signals::Table& table, const experiment::Experiment& experiment);
