@@ -141,7 +141,7 @@ int main(int argc, char** argv) {
     whole.parse(words);
     return run_safely(whole.action);
   } catch (const CLI::ParseError& e) {
-    error(problems_of_line(whole.app, e));
+    error_in_words(problems_of_line(whole.app, e));
     return wrong_usage;
   }
 }

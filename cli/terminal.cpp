@@ -50,9 +50,10 @@ void fill_closed_streams() {
 }
 
 // Each line starts with its place, so that editors can jump there.
-void error(std::string_view text) {
-  to_stderr(in_color(config::printable(as_options(text)), "31") + "\n");
+void error_in_words(std::string_view text) {
+  to_stderr(in_color(config::printable(text), "31") + "\n");
 }
+void error(std::string_view text) { error_in_words(as_options(text)); }
 
 void Messages::warning(std::string_view text) const {
   if (!quiet_)

@@ -21,6 +21,8 @@ void fill_closed_streams();
 // Prints an error. Here and in the messages below, settings of the library are named as the options
 // that they come from (cli/settings.h).
 void error(std::string_view text);
+// Prints an error with the user's own words, none of which is the name of a setting.
+void error_in_words(std::string_view text);
 
 // Prints warnings and notes, unless it is quiet.
 class Messages {
