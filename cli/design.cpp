@@ -70,7 +70,8 @@ ExitCode run_design(const DesignOptions<Settings>& options) {
                    "a name of its own, such as page.html");
     refuse_to_replace(options.report, options.force, design_page);
   }
-  if constexpr (requires { options.settings.base; })  // of a joint: only it is written
+  // Only the design of a joint makes a robot file.
+  if constexpr (requires { options.settings.base; })
     if (!options.out.empty())
       refuse_to_replace(options.out, options.force, robot_file,
                         {options.settings.actuator, options.settings.base});

@@ -52,7 +52,7 @@ struct Result {
   std::vector<report::Plot> plots;    // drawn on the page
   std::vector<std::string> notes;     // assumptions, and reasons of a choice
   std::vector<std::string> warnings;  // for stderr
-  std::vector<std::string> unseen;    // what the result does not include, in sentences
+  std::vector<std::string> unseen;    // sentences on what the result does not include
   std::string refused;                // why no design is possible; empty: a design is possible
   // Returns the text of the robot file that the design makes. Relative paths in it are for a file
   // at `out`. Null if the design makes no file.

@@ -25,7 +25,7 @@ struct Axis {
   std::string key;
   std::string unit;  // as written; may be empty
   std::vector<Value> values;
-  std::string setting = "vary";  // where it was written, for messages: "vary", "range"
+  std::string setting = "vary";  // the setting with its text, for messages: "vary", "range"
 
   std::string heading() const;          // "joint.hip.angle_gain [%/count]"
   Value at(double number) const;        // in the axis's unit

@@ -143,8 +143,8 @@ const std::string& first_text(const Axis& axis) { return axis.values.front().tex
                config::closest_in_quotes(axis.key, known));
 }
 
-// Throws the problem of an axis among those of an experiment, at the setting where the axis was
-// written. Does nothing if there is none.
+// If one of an experiment's problems is that of an axis, throws it at the setting where the axis
+// was written.
 void refuse_axis(const Axis& axis, const config::Error& e) {
   for (const config::Problem& problem : e.problems())
     if (problem.key == axis.key)

@@ -54,8 +54,8 @@ struct BatchedRun {
 // nothing.
 bool fits_batch(const experiment::Experiment& experiment);
 
-// Runs them and passes the outcome of each one, with the bits of run(), to done(number, outcome),
-// which threads call in any order. It is not called for runs that do not fit or do not end as
+// Runs them and passes the outcome of each one, with the bits of run(), to done(number, outcome).
+// Threads call done() in any order. It is not called for runs that do not fit or do not end as
 // planned: the caller makes these by run(). Prepares and finishes the runs on threads. First
 // compares two runs of each launch with run(); throws WrongBits if they differ, and what the
 // launcher throws. Begins no further launch once stopped() returns true.

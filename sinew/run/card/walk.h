@@ -62,8 +62,8 @@ struct PackedEdge {
 struct Kept {
   const std::uint16_t* wanted = nullptr;  // words of Shown, ascending
   std::int32_t words = 0;                 // their number
-  std::int32_t samples = 0;               // of each run, at most
-  std::int32_t edges = 0;                 // of each run, at most; 0: no edges are kept
+  std::int32_t samples = 0;               // room for each run
+  std::int32_t edges = 0;                 // room for each run; 0: no edges are kept
   std::int64_t runs = 0;
   std::uint64_t* sample = nullptr;
   std::uint32_t* edge = nullptr;

@@ -108,7 +108,7 @@ class Recorder {
   };
 
   std::vector<Recorded> columns_;
-  enum class Needs { nothing, motion, all } needs_ = Needs::nothing;  // of the true values
+  enum class Needs { nothing, motion, all } needs_ = Needs::nothing;  // true values to compute
   std::vector<signals::Topic> topics_;   // those of all columns, then those of the valves
   std::size_t first_edge_ = 0;           // topic of the first valve
   signals::PageFile pages_;              // storage for the samples of a long run
