@@ -284,7 +284,7 @@ ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions&
   }
   fit_added(fills, curves, options, report);
   const std::vector<FillSquares> squares = squares_of(report);
-  conclude(report);
+  conclude(report, 0.1, unresolved_error);
   refuse_poor_fit(fills.front().data, report, options.worst_fit);
   if (const std::string names = reach_over_models(squares, 2, report); !names.empty())
     report.fits[report.chosen].notes.push_back(

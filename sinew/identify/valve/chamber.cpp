@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "sinew/air/stiff/quick.h"
 #include "sinew/gas/orifice.h"
 #include "sinew/units/math.h"
 
@@ -55,6 +56,9 @@ class Rates {
             (on - out) / capacity(y[1], 1.0 - chamber_.share)};
   }
 
+  // Returns the number of volumes whose pressures change: 2 with a hose.
+  std::size_t volumes() const { return chamber_.shape == Chamber::Shape::hose ? 2 : 1; }
+
   // Returns about the time in which the choked valve fills the chamber from vacuum to the port's
   // pressure [s].
   double filling_time() const {
@@ -80,42 +84,24 @@ class Rates {
   double density_, port_, start_, swell_;
 };
 
-// Makes one step of ROS3, an L-stable Rosenbrock method of order 3 (Sandu et al., Atmos. Environ.
-// 31, 1997): fast modes that have decayed do not limit the step. Returns its error from the
-// embedded method of order 2.
+// Makes one step from y, where the rates are f, and returns its error: the larger one of both.
 double step(const Rates& rates, bool open, double h, const State& f, State& y) {
-  constexpr double gamma = 0.43586652150845967;
-  constexpr double c21 = -1.0156171083877702, c31 = 4.0759956452537700, c32 = 9.2076794298330791;
-  constexpr double m2 = 6.1697947043828246, m3 = -0.42772256543218573;
-  constexpr double e1 = 0.5, e2 = -2.9079558716805470, e3 = 0.22354069897811570;
-
-  // A = 1/(h gamma) - d f/d y, with numerical derivatives.
-  constexpr double delta = 1e-7;
-  std::array<State, 2> a{};
-  for (std::size_t k = 0; k < 2; ++k) {
-    State moved = y;
-    moved[k] += delta;
-    const State g = rates(moved, open);
-    for (std::size_t i = 0; i < 2; ++i) a[i][k] = -(g[i] - f[i]) / delta;
-    a[k][k] += 1.0 / (h * gamma);
-  }
-  const double determinant = a[0][0] * a[1][1] - a[0][1] * a[1][0];
-  const auto solve = [&](const State& b) {
-    return State{(b[0] * a[1][1] - b[1] * a[0][1]) / determinant,
-                 (b[1] * a[0][0] - b[0] * a[1][0]) / determinant};
+  constexpr double delta = 1e-7;  // of a numerical derivative
+  using Rate = air::QuickRates<2, 0>;
+  const auto at = [&](double, const State& now, bool slopes) {
+    if (!slopes) return Rate{.mass = rates(now, open)};
+    Rate out{.mass = f};
+    for (std::size_t k = 0; k < rates.volumes(); ++k) {
+      State moved = now;
+      moved[k] += delta;
+      const State g = rates(moved, open);
+      for (std::size_t i = 0; i < 2; ++i) out.mass_by[i][k] = (g[i] - f[i]) / delta;
+    }
+    return out;
   };
-
-  const State k1 = solve(f);
-  const State f2 = rates({y[0] + k1[0], y[1] + k1[1]}, open);
-  const State k2 = solve({f2[0] + c21 / h * k1[0], f2[1] + c21 / h * k1[1]});
-  const State k3 =
-      solve({f2[0] + (c31 * k1[0] + c32 * k2[0]) / h, f2[1] + (c31 * k1[1] + c32 * k2[1]) / h});
-  double error = 0;
-  for (std::size_t i = 0; i < 2; ++i) {
-    y[i] += k1[i] + m2 * k2[i] + m3 * k3[i];
-    error = std::max(error, std::abs(e1 * k1[i] + e2 * k2[i] + e3 * k3[i]));
-  }
-  return error;
+  const air::QuickStep<2> result = air::rodas3_step<2>(at, 0, y, h);
+  y = result.mass;
+  return std::max(result.error[0], result.error[1]);
 }
 
 // Interpolates between two nodes by the cubic with their values and slopes.
@@ -151,9 +137,10 @@ bool simulate(const Chamber& chamber, const gas::Air& air, std::span<const Openi
     const bool last = edge == openings.size();
     const double until = last ? times.back() : openings[edge].time;
     double h = first_step * rates.filling_time();
+    State f = rates(y, open);
     while (t < until) {
       double to = t + 1.001 * h < until ? t + h : until;
-      const State from = y, f = rates(from, open);
+      const State from = y;
       double error = 0;
       // The slope jumps where a flow reverses: use smaller steps there.
       while (error = step(rates, open, to - t, f, y), ++steps,
@@ -169,6 +156,7 @@ bool simulate(const Chamber& chamber, const gas::Air& air, std::span<const Openi
             gas::pressure_of_y(air, between(times[i], t, to - t, from[0], f[0], y[0], g[0]));
       if (error < 0.3 * step_error && std::abs(y[0] - from[0]) < longest_way) h *= growth;
       t = to;
+      f = g;
     }
     for (; i < times.size() && times[i] <= t; ++i) pressure[i] = gas::pressure_of_y(air, y[0]);
     if (!last) open = openings[edge].open;

@@ -10,7 +10,7 @@
 //   hose    a share eps_h of V is before a hose of conductance kappa_h C, and so is the sensor
 //
 // All flows are per volume (V or V_end = 1), so only C/V matters. Integrated in y =
-// (P/P_atm)^(1/7) by an L-stable Rosenbrock method with step control, stable where the flow becomes
+// (P/P_atm)^(1/7) by RODAS3 (air/stiff/quick.h) with step control, stable where the flow becomes
 // linear.
 #pragma once
 

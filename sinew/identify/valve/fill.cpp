@@ -184,7 +184,7 @@ Candidate fill_candidate(const FillModel& model, const Curve& c, const ValveOpti
                 .source = std::string(model.source),
                 .starts = spread_starts(model, free),
                 .search_tolerance = 0,
-                .search_steps = 12,
+                .search_steps = 24,
                 .options = fill_options,
                 .may_be_at_bounds = true,
                 .refused = not_tried(model, options)};

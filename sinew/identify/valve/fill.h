@@ -29,6 +29,10 @@ std::span<const FillModel> fill_models();
 inline const SolverOptions fill_options{
     .correlated = true, .most_steps = 60, .widest_interval = 0.25, .difference = 1e-3};
 
+// Error below which all models are equally good, since no pressure sensor resolves it
+// [% of the pressure's range].
+inline constexpr double unresolved_error = 1e-3;
+
 // A parameter and its place in the chamber; null: the opening instant.
 struct FreeValue {
   Parameter parameter;

@@ -193,7 +193,7 @@ ValveResult identify_fill(const Measured& data, const ValveOptions& options,
   refuse_undetermined_models(report, options.worst_fit);
   report.rows = {
       .x = "time", .x_unit = "s", .unit = "Pa abs", .at = c.time, .measured = c.pressure};
-  conclude(report);
+  conclude(report, 0.1, unresolved_error);
   const Estimate alone = report.best().parameters.front();
   if (const std::string names = reach_over_models(squares, 1, report); !names.empty())
     report.fits[report.chosen].notes.push_back(
