@@ -382,6 +382,34 @@ std::vector<Fit> try_all(const StaticSplit& s, const StaticScales& scales,
   return fits;
 }
 
+// Returns the number of tests of a law's form over the length: lengths between the ends of each
+// muscle, and whole muscles if there are several.
+std::size_t tests_of_form(const Points& points) {
+  std::set<double> muscles;
+  for (const StaticPoint& p : points) muscles.insert(p.rest_length);
+  std::size_t out = muscles.size() > 1 ? muscles.size() : 0;
+  for (const double muscle : muscles)
+    out += std::max<std::size_t>(2, lengths_of(points, muscle).size()) - 2;
+  return out;
+}
+
+// Gives laws without a bladder that saturates a reason not to be chosen, if a law with one may be
+// chosen. Returns whether there is one.
+bool prefer_saturating(Report& report) {
+  std::set<std::string_view> names;
+  for (const StaticModel& model : static_models())
+    if (std::ranges::find(model.free_parameters, FreeParameter::saturating_tension) !=
+        model.free_parameters.end())
+      names.insert(model.name);
+  const bool found = std::ranges::any_of(report.fits, [&](const Fit& fit) {
+    return fit.refused.empty() && fit.not_chosen.empty() && names.contains(fit.model);
+  });
+  for (Fit& fit : report.fits)
+    if (found && fit.refused.empty() && fit.not_chosen.empty() && !names.contains(fit.model))
+      fit.not_chosen = "its form needs a test at two lengths between the ends";
+  return found;
+}
+
 StaticSplit split_by(const Points& points, HoldOut hold_out, Report& report) {
   StaticSplit s = split(points, [&](std::size_t i) { return points[i].fitted; });
   if (!s.held_out.empty()) report.held_out_is = "rows that were not to be fitted";
@@ -604,7 +632,9 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   std::vector<Best> found;
   report.fits = try_all(s, out.scales, options, report.full_scale, found);
   report.rows = rows_of(s);
-  conclude(report);
+  const std::size_t tests = tests_of_form(s.fitted);
+  const bool is_prior = tests < 2 && prefer_saturating(report);
+  conclude(report, is_prior && tests == 0 ? 0 : 0.1);
   if (options.model.empty())
     refuse_unexplained(
         report, 15,

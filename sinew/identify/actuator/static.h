@@ -5,9 +5,16 @@
 // parts and lengths one by one, both without the lowest and the highest, and each muscle in turn
 // if there are several. The model with the fewest parameters within 10 % of the smallest error
 // (geometric mean over these kinds, and each kind) is chosen. A law with a parameter at the
-// bound of its range does not describe the data and is not chosen. The end lengths, predicted from
-// the others, are reported separately, as extrapolation. Points that the user holds out
-// (StaticPoint::fitted) take no part in the choice and test the result.
+// bound of its range does not describe the data and is not chosen.
+//
+// The end lengths, predicted from the others, are reported separately, as extrapolation. Points
+// held out by the user (StaticPoint::fitted) take no part in the choice and test the result.
+//
+// One length between the ends of one muscle, or none, does not test the form of a law over the
+// length. Then a law whose bladder saturates is chosen, if one fits: on the muscles that were
+// measured so far these laws are nearest to lengths that were left out. Without any length between
+// the ends it is the one with the smallest error: pressures do not show which parameter the
+// lengths between them need.
 #pragma once
 
 #include <optional>

@@ -130,7 +130,8 @@ void choose(Report& report, double tolerance, double negligible) {
       : by == By::held_out         ? "held-out error"
                                    : "fit error",
       near < negligible ? fmt::format("below {:.2g} %, where it decides nothing", negligible)
-                        : fmt::format("within {:.0f} % of the smallest", 100 * tolerance),
+      : tolerance > 0   ? fmt::format("within {:.0f} % of the smallest", 100 * tolerance)
+                        : "the smallest",
       chosen->model, free_in(*chosen), error_of(*chosen, by), smallest, fits.front()->model,
       runners_up(fits, *chosen, by));
 }
