@@ -1,13 +1,13 @@
 // actuator/prediction.h - interval about the law's force that contains measured forces.
 //
 //   half-width = base + max((beyond - inside) d/0.2, (above - inside) e/0.2, 0)
-//   base^2     = inside^2 + (between^2 - inside^2) a^2 + (b F)^2
+//   base^2     = inside^2 + (between^2 - inside^2) a + (b F)^2
 //
 //   inside, between, beyond, above  half-widths that hold 68 or 95 % of measured forces: at a
 //       measured length, halfway in the widest gap between two, a fifth of the range beyond the
 //       lengths, and a fifth of the range beyond the pressures [N]
-//   a  distance to the nearest measured length, relative to half the widest gap; 0 beyond the
-//      ends [-]
+//   a  harmonic mean of the distances to the measured lengths on either side, relative to half the
+//      widest gap, which it has in the middle of that gap; 0 beyond the ends [-]
 //   b, F  share of the force, per_force_68 or per_force_95 [-], and the law's force [N]
 //   d, e  distance beyond the lengths and the pressures, relative to their ranges [-]
 //
@@ -44,11 +44,27 @@ inline double beyond_ends(double x, double low, double high) {
   return off > 1e-9 * range ? off / range : 0.0;
 }
 
-// Returns the distance to the nearest of some lengths [m]; infinity without lengths.
-inline double nearest_length(const std::vector<double>& lengths, double length) {
-  double out = std::numeric_limits<double>::infinity();
-  for (const double l : lengths) out = std::min(out, std::abs(l - length));
+// The nearest of some lengths on either side of one; infinite beyond their ends [m].
+struct Neighbours {
+  double below = -std::numeric_limits<double>::infinity();
+  double above = std::numeric_limits<double>::infinity();
+};
+
+inline Neighbours neighbours_of(const std::vector<double>& lengths, double length) {
+  Neighbours out;
+  for (const double l : lengths) {
+    if (l <= length) out.below = std::max(out.below, l);
+    if (l >= length) out.above = std::min(out.above, l);
+  }
   return out;
+}
+
+// Returns the harmonic mean of the distances to both neighbours [m]: 0 at a length, half the gap in
+// its middle, twice the distance beyond the ends.
+inline double harmonic_distance(const std::vector<double>& lengths, double length) {
+  const Neighbours n = neighbours_of(lengths, length);
+  const double a = length - n.below, b = n.above - length;
+  return a > 0 && b > 0 ? 2 / (1 / a + 1 / b) : 0;
 }
 
 // Returns the widest gap between neighbours of some lengths in ascending order [m].
@@ -76,17 +92,17 @@ inline ForceInterval force_interval(const Prediction& p, double length, double g
   const double d = beyond_ends(length, p.lengths.front(), p.lengths.back());
   const double e = beyond_ends(gauge_pressure, p.lowest, p.highest);
   const double gap = widest_gap(p.lengths);
-  const double away = d == 0 && gap > 0 ? nearest_length(p.lengths, length) : 0;
+  const double away = d == 0 && gap > 0 ? harmonic_distance(p.lengths, length) : 0;
   const double a = gap > 0 ? away / (0.5 * gap) : 0;
   out.measured = d == 0 && e == 0;
   const bool unseen = length > (1 + same_length) * p.lengths.back();
   out.known = (d == 0 || (p.beyond_95 > 0 && d <= 1 && !unseen)) &&
               (e == 0 || (p.above_95 > 0 && e <= 1)) &&
-              (p.between_95 > 0 || away < same_length * p.lengths.back());
+              (p.between_95 > 0 || away < 2 * same_length * p.lengths.back());
   if (!out.known) return out;
   const auto at = [a, d, e](double inside, double between, double beyond, double above,
                             double of_force) {
-    const double form = std::max(0.0, between * between - inside * inside) * a * a;
+    const double form = std::max(0.0, between * between - inside * inside) * a;
     return std::sqrt(inside * inside + form + of_force * of_force) +
            std::max({0.0, (beyond - inside) * d / 0.2, (above - inside) * e / 0.2});
   };

@@ -51,18 +51,17 @@ TEST(Prediction, AShareOfTheForceAdds) {
   EXPECT_NEAR(widest_inside_95(p, 300), 13, 1e-12);
 }
 
-// Squares add: an error of the law's form, which grows with the distance, and one of the fit.
-TEST(Prediction, BetweenLengthsSquaresGrowWithTheSquareOfTheDistance) {
+// Squares add: an error of the law's form, a random walk between two lengths, and one of the fit.
+// The variance of a random walk in the middle of a gap grows with the gap.
+TEST(Prediction, BetweenLengthsSquaresGrowWithTheHarmonicMeanOfTheDistances) {
   const Prediction p = known();
   for (double away = 0; away < 0.015; away += 0.001) {
-    const double part = away / 0.015;
-    const double wanted = std::sqrt(9 + 16 * part * part);
+    const double part = away * (0.03 - away) / (0.015 * 0.015);
+    const double wanted = std::sqrt(9 + 16 * part);
     EXPECT_NEAR(half_95(p, 0.21 + away), wanted, 1e-12);
     EXPECT_NEAR(half_95(p, 0.24 - away), wanted, 1e-12);
-    if (away <= 0.005) {
-      EXPECT_NEAR(half_95(p, 0.20 + away), wanted, 1e-12);
-    }
   }
+  EXPECT_NEAR(half_95(p, 0.205), std::sqrt(9 + 16.0 / 3), 1e-12);
 }
 
 // In either direction and from any start beyond the ends, the interval never shrinks.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "sinew/actuator/prediction.h"
 #include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/contest/refusal.h"
 
@@ -61,7 +62,7 @@ struct Mount {
   double length = 0, rest_length = 0;
   int group = 0;
   bool at_end = false;  // the longest or the shortest of its muscle
-  double next = 0;  // distance to the nearest mount, share of the rest length [-]; 0: the only one
+  double away = 0;      // eps_d of static_spread.h without this mount [-]
 };
 
 std::vector<Mount> mounts_of(const Points& points, const std::vector<int>& group) {
@@ -76,11 +77,10 @@ std::vector<Mount> mounts_of(const Points& points, const std::vector<int>& group
       });
     };
     m.at_end = !beyond(1) || !beyond(-1);
-    for (const Mount& other : out) {
-      const double away = std::abs(other.length - m.length) / m.rest_length;
-      if (other.rest_length == m.rest_length && away > 0 && (m.next == 0 || away < m.next))
-        m.next = away;
-    }
+    std::vector<double> others;
+    for (const Mount& other : out)
+      if (other.rest_length == m.rest_length && &other != &m) others.push_back(other.length);
+    m.away = actuator::harmonic_distance(others, m.length) / m.rest_length;
   }
   return out;
 }
@@ -117,7 +117,7 @@ LeftOutLengths cross_lengths(const StaticLawFitter& model, const Points& points,
                             1e3 * mount.length, s.rmse_percent, s.max_percent);
     out.all.add(one);
     if (const double square = mean_square_of_pull(one); square > 0)
-      out.missed.push_back({square / (full_scale * full_scale), mount.next});
+      out.missed.push_back({square / (full_scale * full_scale), mount.away});
   }
   return out;
 }

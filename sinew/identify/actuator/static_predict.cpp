@@ -18,8 +18,10 @@ namespace {
 
 using Intervals = actuator::Prediction;
 
-constexpr double a_fifth = 0.2;  // share of the range, "beyond" of prediction.h
-constexpr int nodes = 5;         // number of pressures
+constexpr double a_fifth = 0.2;           // share of the range, "beyond" of prediction.h
+constexpr double beyond_share = 0.3;      // share of the error between lengths beyond the shortest
+constexpr double growth_share = 1.0 / 3;  // share of the growth of sigma_F in that error
+constexpr int nodes = 5;                  // number of pressures
 constexpr std::size_t most_lengths = 9;
 
 const StaticMuscle* fitted(const StaticResult& result, double rest_length) {
@@ -31,6 +33,24 @@ const StaticMuscle* fitted(const StaticResult& result, double rest_length) {
 bool within(double x, double low, double high) {
   const double slip = 1e-6 * std::max(std::abs(low), std::abs(high));
   return x >= low - slip && x <= high + slip;
+}
+
+// sigma_F at a point and, between two lengths, its growth from them: the root of the difference of
+// the squares  [N].
+struct Width {
+  double sigma = 0, growth = 0;
+};
+
+Width width_of(const StaticResult& result, const std::vector<double>& lengths,
+               const StaticPoint& point) {
+  const auto [below, above] = actuator::neighbours_of(lengths, point.length);
+  std::vector<StaticPoint> three(3, point);
+  const bool is_between = std::isfinite(above - below) && above > below;
+  if (is_between) three[1].length = below, three[2].length = above;
+  const std::vector<double> w = widths(result.fit, result.scales, three);
+  const double part = is_between ? (point.length - below) / (above - below) : 0;
+  const double square = (1 - part) * w[1] * w[1] + part * w[2] * w[2];
+  return {std::sqrt(square), std::sqrt(std::max(0.0, w[0] * w[0] - square))};
 }
 
 // Returns the root mean squares of both half-widths.
@@ -113,10 +133,12 @@ StaticForce predict(const StaticResult& result, const StaticPoint& point) {
   const bool inside = is_between && within(point.pressure, muscle.lowest, muscle.highest);
   Quantiles q = inside ? spread.inside : spread.beyond;
   if (point.length > (1 + actuator::same_length) * longest) q = {};
-  const double w = widths(result.fit, result.scales, one)[0];
-  out.half_68 = q.q68 * w;
-  out.half_95 = q.q95 * w;
-  if (!fitted(result, point.rest_length)) {
+  const bool is_fitted = fitted(result, point.rest_length) != nullptr;
+  const Width width = is_fitted ? width_of(result, muscle.lengths, one[0])
+                                : Width{widths(result.fit, result.scales, one)[0]};
+  out.half_68 = q.q68 * width.sigma;
+  out.half_95 = q.q95 * width.sigma;
+  if (!is_fitted) {
     const StaticPoint top{
         .length = longest, .pressure = muscle.highest, .rest_length = muscle.rest_length};
     const double scale =
@@ -130,11 +152,12 @@ StaticForce predict(const StaticResult& result, const StaticPoint& point) {
     return out;
   }
   out.kind = inside ? PredictionKind::inside : PredictionKind::beyond;
-  // The quantiles of ends that were left out already include the error of the law's form.
-  const double away =
-      is_between ? actuator::nearest_length(muscle.lengths, point.length) / muscle.rest_length : 0;
-  out.half_68 = std::hypot(out.half_68, spread.between_68 * away);
-  out.half_95 = std::hypot(out.half_95, spread.between_95 * away);
+  const double form =
+      (is_between ? 1 : beyond_share) * spread.between_68 *
+      std::sqrt(actuator::harmonic_distance(muscle.lengths, point.length) / muscle.rest_length);
+  const double of_form = std::max(form, growth_share * width.growth);
+  out.half_68 = std::hypot(out.half_68, of_form);
+  out.half_95 = std::hypot(out.half_95, form_95 * of_form);
   return out;
 }
 

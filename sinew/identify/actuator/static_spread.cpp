@@ -12,12 +12,11 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr std::size_t few = 20;          // fewer points give no empirical 95th percentile
-constexpr double widest = 2.5;           // half-width of 95 %, in root mean squares
-constexpr double slack_share = 0.005;    // share of the largest force; less counts as slack
-constexpr double prior_error = 0.8;      // kappa_d0: share of the largest force per rest length
-constexpr double prior_lengths = 0.125;  // nu_0
-constexpr double form_95 = 1.7;          // q_d of 95 %
+constexpr std::size_t few = 20;        // fewer points give no empirical 95th percentile
+constexpr double widest = 2.5;         // half-width of 95 %, in root mean squares
+constexpr double slack_share = 0.005;  // share of the largest force; less counts as slack
+constexpr double prior_error = 0.1;    // kappa_d0
+constexpr double prior_weight = 3;     // 3 in the formula for w
 
 // Returns the values that divide a normal distribution into equally probable parts, each at the
 // middle of its part.
@@ -54,12 +53,12 @@ std::vector<double> errors_of_readings(std::span<const double> errors,
 }
 
 void add_between(std::span<const LengthError> missed, double largest_force, StaticSpread& spread) {
+  const auto count = static_cast<double>(missed.size());
+  const double power = std::pow(count, 4), weight = power / (power + prior_weight);
   double shown = 0;
-  for (const LengthError& m : missed) shown += m.square / (m.away * m.away);
-  const double squares = prior_lengths * prior_error * prior_error + std::max(0.0, shown);
-  const double lengths = prior_lengths + static_cast<double>(missed.size());
-  spread.between_68 = std::sqrt(squares / lengths) * largest_force;
-  spread.between_95 = form_95 * spread.between_68;
+  for (const LengthError& m : missed) shown += m.square / m.away / count;
+  const double square = (1 - weight) * prior_error * prior_error + weight * std::max(0.0, shown);
+  spread.between_68 = std::sqrt(square) * largest_force;
 }
 
 void HeldOutErrors::add(const HeldOutErrors& other) {

@@ -23,21 +23,27 @@
 //
 //   F  predicted force [N]   F_max  largest force of that muscle [N]
 //
-// Between two lengths the form of the law has an additional error, common to all pressures, which
-// grows with the distance to the nearest length:
+// Between two lengths the form of the law has an additional error, common to all pressures. It
+// varies over the length like a random walk that is 0 at both lengths (a Brownian bridge):
 //
-//   half-width^2 = (q sigma_F)^2 + (q_d kappa_d eps_d F_max)^2      q_d = 1 for 68 %, 1.7 for 95 %
-//   kappa_d^2 = (nu_0 kappa_d0^2 + sum e_k^2/eps_dk^2) / (nu_0 + n_L)
+//   half-width^2 = (q sigma_F)^2 + (q_d kappa_d F_max)^2 eps_d      q_d = 1 for 68 %, 2.35 for 95 %
+//   kappa_d^2 = (1 - w) kappa_d0^2 + w mean(e_k^2/eps_dk)           w = n_L^4/(n_L^4 + 3)
 //
-//   eps_d  distance of the nearest measured length, as a share of the rest length; 0 beyond the
-//      ends, as the ends that were left out have it in their q [-]
+//   eps_d  2 a b/(a + b) as a share of the rest length; a and b are the distances of the measured
+//      lengths on either side [-]
+//   sigma_F  interpolated by its square between these two lengths. The error of the form is no less
+//      than a third of what sigma_F grows by between them (root of the difference of squares)
 //   F_max  largest force [N]
 //   e_k^2  mean square of the error at the k-th of n_L lengths that were left out, less that at
-//      pressures that were left out, in shares of F_max [-]; the sum is no less than 0
+//      pressures that were left out, in shares of F_max [-]; the mean is no less than 0
 //      eps_dk  its eps_d
-//   kappa_d0 = 0.8, nu_0 = 1/8  assumed for any law on any muscle beforehand: an eighth of a length
-//      that was left out. They and q_d were chosen so that both intervals hold on seven muscles
-//      (docs/theory/static-models.md)
+//   kappa_d0 = 0.1  assumed for any law on any muscle beforehand. One length that was left out has
+//      little weight, because the law was chosen by it; two outweigh the assumption. kappa_d0, w
+//      and q_d were chosen so that both intervals hold on seven muscles, with one length or two
+//      neighbours left out (docs/theory/static-models.md)
+//
+// Beyond the shortest length eps_d is 2 a, and three tenths of this half-width are added as a
+// square: most of the error there is in the q of the ends that were left out.
 //
 // Few muscles have more than two lengths between their ends, and two values give no quantile.
 // Beyond the longest length no interval is given: the bladder's first pull is steepest there, and
@@ -69,8 +75,8 @@ enum class PredictionKind { inside, beyond, other_muscle };
 struct StaticSpread {
   Quantiles inside, beyond;
 
-  // Half-widths between lengths, per share of the rest length: q_d kappa_d F_max [N].
-  double between_68 = 0, between_95 = 0;
+  // Half-width of 68 % between lengths, per root of eps_d: kappa_d F_max [N].
+  double between_68 = 0;
 
   // q rho of the muscles that were left out, and the greatest |ln| of the ratio to the nearest
   // other rest length [-]. 0: no muscle was left out.
@@ -86,12 +92,15 @@ struct LengthError {
 // contain 68 and 95 % in multiples of the root mean square  [-].
 inline constexpr double by_force = 2, other_68 = 1, other_95 = 2.1;
 
+// q_d of 95 %, for errors between lengths  [-].
+inline constexpr double form_95 = 2.35;
+
 // Returns the errors of the readings behind averages with these errors: within an average they are
 // distributed normally with its variance. Errors of single readings are unchanged.
 std::vector<double> errors_of_readings(std::span<const double> errors,
                                        std::span<const double> variances);
 
-// Writes the half-widths between lengths of a law with these errors at lengths that were left out.
+// Writes the half-width between lengths of a law with these errors at lengths that were left out.
 // `largest_force` is F_max [N].
 void add_between(std::span<const LengthError> missed, double largest_force, StaticSpread& spread);
 

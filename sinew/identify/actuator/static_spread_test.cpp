@@ -89,23 +89,24 @@ TEST(Spread, FewPointsTakeStudentsFactorAndNoneAreInfinite) {
   EXPECT_TRUE(std::isinf(quantiles({}).q95));
 }
 
-// Without lengths that were left out, only the prior counts, as an eighth of a length; errors equal
-// to the prior leave it unchanged, and others soon outweigh it.
+// Without lengths that were left out, only the prior counts; errors equal to the prior leave it
+// unchanged, one length has a quarter of the weight, and several soon outweigh it.
 TEST(Spread, BetweenLengthsItGrowsWithWhatLengthsWereMissedBy) {
   const auto half_68 = [](const std::vector<LengthError>& missed) {
     StaticSpread spread;
     add_between(missed, 1000, spread);
-    EXPECT_NEAR(spread.between_95, 1.7 * spread.between_68, 1e-12 * spread.between_68);
     return spread.between_68 / 1000;
   };
-  constexpr double c = 0.8;  // share of the largest force per rest length
+  constexpr double c = 0.1;  // share of the largest force per root of the distance
   EXPECT_NEAR(half_68({}), c, 1e-12);
-  const double a = 0.04, square = std::pow(c * a, 2);
+  const double a = 0.04, square = c * c * a;
   EXPECT_NEAR(half_68({{square, a}, {square, a}}), c, 1e-12);
-  EXPECT_NEAR(half_68({{0, a}, {0, a}}), c * std::sqrt(1.0 / 17), 1e-12);
+  EXPECT_NEAR(half_68({{0, a}}), c * std::sqrt(3.0 / 4), 1e-12);
+  EXPECT_NEAR(half_68({{0, a}, {0, a}}), c * std::sqrt(3.0 / 19), 1e-12);
   EXPECT_NEAR(half_68({{-square, a}, {0, a}}), half_68({{0, a}, {0, a}}), 1e-12);
-  EXPECT_NEAR(half_68({{100 * square, a}}), c * std::sqrt(801.0 / 9), 1e-12);
-  EXPECT_NEAR(half_68({{100 * square, 2 * a}}), c * std::sqrt(201.0 / 9), 1e-12);
+  EXPECT_NEAR(half_68({{100 * square, a}}), c * std::sqrt(103.0 / 4), 1e-12);
+  EXPECT_NEAR(half_68({{100 * square, 2 * a}}), c * std::sqrt(53.0 / 4), 1e-12);
+  EXPECT_LT(half_68(std::vector<LengthError>(5, {0, a})), 0.1 * c);
 }
 
 // The width grows from a length to the middle of the gap, and is that of the fit at the length.
@@ -119,8 +120,8 @@ TEST(Spread, BetweenTwoLengthsItIsWidestHalfway) {
   EXPECT_GT(half(0.25), half(0));
   EXPECT_GT(half(0.5), half(0.25));
   EXPECT_GT(half(0.5), half(0.75));
-  EXPECT_NEAR(std::hypot(half(0), 0.25 * 0.03 * 0.5 / 0.25 * found.spread.between_95), half(0.5),
-              0.1 * half(0));
+  EXPECT_NEAR(std::hypot(half(0), std::sqrt(0.5 * 0.03) * form_95 * found.spread.between_68),
+              half(0.5), 0.1 * half(0));
 
   // The file gives approximately the same.
   actuator::Prediction p = prediction_of(found, found.muscles[0]);
