@@ -235,14 +235,6 @@ struct FilmOptions : Flags {
   bool dark = false, still = false;
 };
 
-std::string film_page(const FilmOptions& options, const run::Notices& notices) {
-  report::require_page("the film");
-  if (options.runs.size() > 1)
-    return report::page(
-        run::compare_runs(options.runs, options.alignment.align_options(), {}, notices));
-  return run::page_of(run::run_files(options.runs.front()), options.machine, notices);
-}
-
 std::vector<std::string> film_arguments(const FilmOptions& o) {
   const fs::path script = config::shipped_folder() / "python/sinew/_film.py";
   std::vector<std::string> out{"python3", script.string()};
@@ -283,7 +275,9 @@ ExitCode make(const FilmOptions& options) {
   if (const int code = host::exit_code_of(arguments, missing); code != 0)
     return static_cast<ExitCode>(code);
   arguments.erase(arguments.begin() + 2);
-  host::continue_as(arguments, missing, film_page(options, messages.notices()));
+  host::continue_as(arguments, missing,
+                    run::film_page(options.runs, options.alignment.align_options(), options.machine,
+                                   messages.notices()));
 }
 
 }  // namespace

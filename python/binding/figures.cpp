@@ -7,7 +7,6 @@
 #include "sinew/run/folder/compared.h"
 #include "sinew/run/folder/drawn_run.h"
 #include "sinew/run/folder/files.h"
-#include "sinew/run/folder/page.h"
 
 namespace sinew::python {
 
@@ -88,9 +87,7 @@ std::string film_page(const Names& runs, const py::object& path, const std::stri
   run::refuse_to_overwrite(file, force, {}, std::filesystem::path(file).extension().string());
   run::require_folder_of(file);
   const py::gil_scoped_release unlocked;
-  report::require_page("the film");
-  return runs.size() == 1 ? run::page_of(run::run_files(runs[0]), "")
-                          : report::page(run::compare_runs(runs, align_options));
+  return run::film_page(runs, align_options);
 }
 
 [[noreturn]] void refuse(const std::string& name, const std::string& found,

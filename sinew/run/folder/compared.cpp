@@ -5,6 +5,8 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/experiment/globs.h"
 #include "sinew/log/reader.h"
+#include "sinew/report/page/page.h"
+#include "sinew/run/folder/page.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/run_log.h"
 
@@ -82,6 +84,14 @@ report::Comparison compare_runs(const std::vector<std::string>& runs,
   report::Comparison comparison = compare(std::move(all), align_options);
   keep_chosen(comparison, channels);
   return comparison;
+}
+
+std::string film_page(const std::vector<std::string>& runs,
+                      const report::AlignOptions& align_options, const std::string& machine,
+                      const Notices& notices) {
+  report::require_page("the film");
+  return runs.size() > 1 ? report::page(compare_runs(runs, align_options, {}, notices))
+                         : page_of(run_files(runs.front()), machine, notices);
 }
 
 }  // namespace sinew::run

@@ -1,4 +1,4 @@
-// run/folder/compared.h - comparison of stored runs.
+// run/folder/compared.h - comparison of stored runs, and the page of a film.
 #pragma once
 
 #include <string>
@@ -18,5 +18,11 @@ report::Comparison compare_runs(const std::vector<std::string>& runs,
                                 const report::AlignOptions& align_options,
                                 const std::vector<std::string>& channels = {},
                                 const Notices& notices = {});
+
+// Returns the page whose replay a film shows: that of one run, as page_of() returns it, or the
+// comparison of several. Throws as these do.
+std::string film_page(const std::vector<std::string>& runs,
+                      const report::AlignOptions& align_options, const std::string& machine = "",
+                      const Notices& notices = {});
 
 }  // namespace sinew::run
