@@ -349,15 +349,18 @@ std::vector<Warning> unopened_valves(const signals::Table& table, const Machine&
   return out;
 }
 
-std::vector<Warning> unused_air(const signals::Table& table, const Machine& machine) {
+std::vector<Warning> unused_air(const signals::Table& table, const Machine& machine,
+                                signals::TopicNames* read) {
   bool known = false;
   for (const robot::Muscle& muscle : machine.robot.muscles) {
-    const auto in = gained(
-        table, robot::logged_topic(machine.robot, "/true/muscle/" + muscle.name + "/air_in"));
+    const std::string topic =
+        robot::logged_topic(machine.robot, "/true/muscle/" + muscle.name + "/air_in");
+    if (read) read->insert(topic);
+    const auto in = gained(table, topic);
     if (in.value_or(0) > 0) return {};
     known = known || in.has_value();
   }
-  const Record record(table, machine);
+  const Record record(table, machine, nullptr, "", read);
   if (!known || !record.has_sequence() || !is_commanded(record, machine)) return {};
   return {
       {fmt::format("no muscle took any air in the {:.4g} s of the plan, whatever it commanded: the "

@@ -60,8 +60,10 @@ std::vector<Warning> cut_logs(const signals::Table&);
 // hardly longer than they take to open. Muscles with the same valve share one warning.
 std::vector<Warning> unopened_valves(const signals::Table&, const Machine&);
 
-// Warns of a plan that moved a joint or opened an inlet while no muscle took any air.
-std::vector<Warning> unused_air(const signals::Table&, const Machine&);
+// Warns of a plan that moved a joint or opened an inlet while no muscle took any air. Adds the
+// topics from which this follows to `read`.
+std::vector<Warning> unused_air(const signals::Table&, const Machine&,
+                                signals::TopicNames* read = nullptr);
 
 // Warns of a trolley that reached the end of its track before its sequence was over.
 std::vector<Warning> ended_tracks(const signals::Table&, const Machine&);

@@ -276,19 +276,26 @@ std::string Ensemble::plan_of(const Member& member) const {
 }
 
 // Returns the figures of a run: the wanted ones from the topics that it recorded, or all of them.
-// If these topics are too few, or no muscle took air, it is run again, and later runs record more.
+// If these topics are too few, it is run again, and later runs record more: those that show that no
+// muscle took air are recorded after the first such run.
 analysis::Summary Ensemble::figures_of(const Member& member, const Outcome& outcome,
                                        bool& no_air) const {
   const analysis::Machine& machine = member.machine;
-  if (member.selection && outcome.took_air)
+  signals::TopicNames of_air;
+  const auto uses_no_air = [&](const signals::Table& table) {
+    return !outcome.took_air && !analysis::unused_air(table, machine, &of_air).empty();
+  };
+  if (member.selection) no_air = uses_no_air(outcome.table);
+  if (member.selection && std::ranges::includes(member.selection->topics(), of_air))
     if (auto figures = member.selection->figures(outcome.table, machine))
       return std::move(*figures);
   Outcome again;
   if (member.selection) again = run::run(member.experiment);
   const signals::Table& table = member.selection ? again.table : outcome.table;
-  no_air = !analysis::unused_air(table, machine).empty();
+  no_air = uses_no_air(table);
   if (!figures_.empty() && !parameters_.empty() && !machine.stand) {
     analysis::Selection selection(with_notes(figures_), table, machine);
+    selection.add(of_air);
     const std::lock_guard lock(mutex_);
     if (selection_) selection.add(selection_->topics());
     if (!selection_ || selection_->topics() != selection.topics())

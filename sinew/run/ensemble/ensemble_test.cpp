@@ -302,6 +302,8 @@ TEST(Ensemble, SeesThatNoMuscleTookAir) {
     EXPECT_TRUE(ensembles.run_once(leg, shut).no_air) << i;
     EXPECT_FALSE(ensembles.run_once(leg, {"valve.inlet.flow.area=9e-7 m2"}).no_air) << i;
   }
+  const auto recorded = ensembles.begin(leg, shut).member->selection->topics();
+  EXPECT_TRUE(recorded.contains("/true/muscle/hip_flexor/air_in")) << "no run is made twice";
 }
 
 // Each figure of a summary, computed from the topics that it needs alone.
