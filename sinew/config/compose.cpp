@@ -22,26 +22,6 @@ const char* const set_origin = "--set";
 
 // --- paths of other files ---
 
-// Returns the path of a file named in `entry`, relative to the file that contains the entry.
-std::string resolved_path(const Node& entry) {
-  const fs::path named = entry.text;
-  if (named.is_absolute()) return named.lexically_normal().string();
-  const fs::path file = entry.where.line > 0 ? fs::path(entry.where.file) : fs::path();
-  return (file.parent_path() / named).lexically_normal().string();
-}
-
-void check_file_entry(const Node& entry, const std::string& key) {
-  if (entry.kind != Node::Kind::text) {
-    fail(entry.where, key, shown(entry), "the name of a file, relative to this one");
-  }
-  std::error_code ignored;
-  const std::string path = resolved_path(entry);
-  if (!fs::is_regular_file(path, ignored)) {
-    fail(entry.where, key, in_quotes(entry.text), "a file that exists",
-         "the path: looked for " + path);
-  }
-}
-
 void check_kind(const Node& root, const Node& entry, const std::string& key,
                 std::string_view kind) {
   if (format_kind(root) == kind) return;
@@ -59,8 +39,7 @@ Node load(const std::string& path) {
   const Node* base_entry = own.find("base");
   if (!base_entry) return own;
 
-  check_file_entry(*base_entry, "base");
-  Node base = parse_file(resolved_path(*base_entry));
+  Node base = parse_file(file_of(*base_entry, "base"));
   check_format(base);
   check_kind(base, *base_entry, "base", format_kind(own));
   if (const Node* second = base.find("base")) {
@@ -77,8 +56,7 @@ Node load(const std::string& path) {
 }
 
 Node load_named(const Node& entry, const std::string& key, std::string_view kind) {
-  check_file_entry(entry, key);
-  Node root = load(resolved_path(entry));
+  Node root = load(file_of(entry, key));
   check_kind(root, entry, key, kind);
   return root;
 }
@@ -130,16 +108,15 @@ void add_actuators(Node& root, const Node& entry) {
 }
 
 void add_valve_timing(Node& root, const Node& entry) {
-  check_file_entry(entry, "files.valve_timing");
   Node& low_level = root_table(root, "low_level", entry.where);
-  const std::string path = fs::absolute(resolved_path(entry)).lexically_normal().string();
+  const std::string path =
+      fs::absolute(file_of(entry, "files.valve_timing")).lexically_normal().string();
   low_level.put(make_text("valve_timing", path, entry.where));
 }
 
 // Adds the gains; those of an experiment also set the desired stiffness of the first joint.
 void add_gains(Node& root, const Node& entry) {
-  check_file_entry(entry, "files.gains");
-  put_gains(root, entry, resolved_path(entry), format_kind(root) == "experiment");
+  put_gains(root, entry, file_of(entry, "files.gains"), format_kind(root) == "experiment");
 }
 
 // Removes `files` from the tree and adds the contents of the files.
@@ -290,8 +267,7 @@ void leave_settings_of_named(Node& valve) {
 std::string catalogue_path(const Node& valve, const std::string& key) {
   const Node* file = valve.find("catalogue_file");
   if (!file) return (shipped_folder() / "data/valves.toml").string();
-  check_file_entry(*file, key + "catalogue_file");
-  return resolved_path(*file);
+  return file_of(*file, key + "catalogue_file");
 }
 
 // Returns the valve of that name in a catalogue.
@@ -325,6 +301,18 @@ void fill_from(const Node& listed, Node& valve) {
 }
 
 }  // namespace
+
+std::string file_of(const Node& entry, const std::string& key) {
+  if (entry.kind != Node::Kind::text)
+    fail(entry.where, key, shown(entry), "the name of a file, relative to this one");
+  const fs::path folder = entry.where.line > 0 ? fs::path(entry.where.file).parent_path() : "";
+  const std::string path = (folder / entry.text).lexically_normal().string();
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored))
+    fail(entry.where, key, in_quotes(entry.text), "a file that exists",
+         "the path: looked for " + path);
+  return path;
+}
 
 std::string_view format_kind(const Node& root) {
   const Node* node = root.find("format");

@@ -59,6 +59,10 @@ class Composer {
   std::map<std::vector<std::string>, Node> read_;  // keys: path, settings of `robot`
 };
 
+// Returns the path of the file that an entry names, relative to the file with the entry. Throws
+// Error that names the entry's `key` if there is no such file.
+std::string file_of(const Node& entry, const std::string& key);
+
 // Returns "experiment" for format = "sinew.experiment/1"; empty if there is no such key.
 std::string_view format_kind(const Node& root);
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sinew/config/diagnostics.h"
+#include "sinew/config/changes.h"
 #include "sinew/units/quantity.h"
 
 namespace sinew::tune {
@@ -91,7 +91,30 @@ void add_range(Axis& axis, std::string_view text, std::string_view setting) {
     axis.values.push_back(number_value(rounded(from + i * (to - from) / (n - 1)), axis.unit));
 }
 
+void add_places(const config::Node& node, const std::string& key, Places& out) {
+  if (node.kind == config::Node::Kind::table || node.kind == config::Node::Kind::array) {
+    for (const config::Node& child : node.children)
+      add_places(child, child.key.empty() ? key : child.key, out);
+  } else {
+    // The text is as the reader of a plan has it.
+    out.try_emplace({key, config::with_present_key(config::written(node))}, node.where);
+  }
+}
+
 }  // namespace
+
+Places places_of(const config::Node& root) {
+  Places out;
+  add_places(root, "", out);
+  return out;
+}
+
+std::string place_of(const Places& places, const std::string& key, const std::string& text) {
+  const auto found = places.find({key, text});
+  if (found == places.end()) return key;
+  const config::Location& at = found->second;
+  return fmt::format("{}:{}:{}: {}", at.file, at.line, at.column, key);
+}
 
 std::vector<std::string_view> list_of(std::string_view text) {
   std::vector<std::string_view> out;
@@ -154,8 +177,8 @@ Axis parse_ends(std::string_view text, std::string_view setting, const std::stri
   return axis;
 }
 
-Axis seeds(int n) {
-  Axis axis{.key = "seed", .unit = {}, .values = {}, .setting = "seeds"};
+Axis seeds(int n, std::string setting) {
+  Axis axis{.key = "seed", .unit = {}, .values = {}, .setting = std::move(setting)};
   for (int i = 1; i <= n; ++i) axis.values.push_back(axis.at(i));
   return axis;
 }

@@ -5,12 +5,15 @@
 //   low_level.duty_rounding=none,truncate sum        words
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/node.h"
 #include "sinew/units/letters.h"
 
 namespace sinew::tune {
@@ -25,7 +28,7 @@ struct Axis {
   std::string key;
   std::string unit;  // as written; may be empty
   std::vector<Value> values;
-  std::string setting = "vary";  // the setting with its text, for messages: "vary", "range"
+  std::string setting = "vary";  // the setting with its text, for messages (place_of)
 
   std::string heading() const;          // "joint.hip.angle_gain [%/count]"
   Value at(double number) const;        // in the axis's unit
@@ -40,12 +43,20 @@ Axis parse_axis(std::string_view text, std::string_view setting = "vary");
 Axis parse_ends(std::string_view text, std::string_view setting, const std::string& example);
 
 // Returns the axis seed = 1 … n, for the experiment's noise.
-Axis seeds(int n);
+Axis seeds(int n, std::string setting = "seeds");
 
 // Splits a list at its commas, except those within brackets and quotes; trims its parts.
 std::vector<std::string_view> list_of(std::string_view text);
 
 using units::trimmed;
+
+// Places of the values in a plan or a tuning, by key and text: {"vary", "seed=1,2"}.
+using Places = std::map<std::pair<std::string, std::string>, config::Location>;
+Places places_of(const config::Node& root);
+
+// Returns "plan.toml:7:9: vary", or "vary" for a value that is not in the file: the setting of a
+// command or a program.
+std::string place_of(const Places& places, const std::string& key, const std::string& text);
 
 // All combinations of the axes' values; the last axis varies fastest.
 class Grid {

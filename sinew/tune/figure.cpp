@@ -14,7 +14,9 @@ namespace {
 
 Figure parse_figure(std::string_view text, std::string_view setting) {
   const std::size_t bracket = text.find('[');
-  Figure out{.key = std::string(trimmed(text.substr(0, bracket))), .unit = {}};
+  Figure out{.key = std::string(trimmed(text.substr(0, bracket))),
+             .unit = {},
+             .setting = std::string(setting)};
   const std::string si = analysis::unit_of_key(out.key);
   out.unit = si;
   if (out.key.empty() || out.key.find(' ') != out.key.npos)
@@ -86,7 +88,9 @@ bool Condition::holds(const analysis::Summary& summary) const {
 Condition parse_condition(std::string_view text, std::string_view setting) {
   const std::size_t sign = text.find_first_of("<>");
   const std::string example = "\"joints.hip.tracking_rms_rad < 5 deg\"";
-  Condition out{.key = std::string(trimmed(text.substr(0, sign))), .text = std::string(text)};
+  Condition out{.key = std::string(trimmed(text.substr(0, sign))),
+                .text = std::string(text),
+                .setting = std::string(setting)};
   if (sign == text.npos || out.key.empty() || out.key.find(' ') != out.key.npos)
     refuse(setting, text, "key < value, or with <=, > or >=", example);
   const bool equal = sign + 1 < text.size() && text[sign + 1] == '=';
@@ -95,7 +99,9 @@ Condition parse_condition(std::string_view text, std::string_view setting) {
 
   const std::string_view value = trimmed(text.substr(sign + (equal ? 2 : 1)));
   const units::Parsed parsed = units::parse_quantity(value, analysis::unit_of_key(out.key));
-  if (parsed.mistake) config::fail({std::string(setting), 0, 0}, out.key, *parsed.mistake);
+  if (parsed.mistake)
+    config::fail({std::string(setting), 0, 0}, "", out.key + ": " + parsed.mistake->found,
+                 parsed.mistake->expected, parsed.mistake->try_this);
   out.limit = parsed.si;
   return out;
 }

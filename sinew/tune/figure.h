@@ -17,9 +17,10 @@
 namespace sinew::tune {
 
 struct Figure {
-  std::string key;     // a key of summary.json
-  std::string unit;    // unit in which it is shown; "1": no unit
-  bool named = false;  // whether the unit was given explicitly
+  std::string key;                 // a key of summary.json
+  std::string unit;                // unit in which it is shown; "1": no unit
+  bool named = false;              // whether the unit was given explicitly
+  std::string setting = "report";  // the setting with its text, for messages (place_of)
 
   // Returns "joints.hip.tracking_rms [deg]", without the unit of the summary that ends the key.
   std::string heading() const;
@@ -46,8 +47,9 @@ struct Condition {
 
   std::string key;
   Is is = Is::below;
-  double limit = 0;  // SI
-  std::string text;  // as written
+  double limit = 0;               // SI
+  std::string text;               // as written
+  std::string setting = "where";  // as that of a figure
 
   // Returns whether the condition holds; false if the summary has no such key.
   bool holds(const analysis::Summary&) const;

@@ -1,7 +1,6 @@
 #include "sinew/tune/study.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -28,13 +27,13 @@ Study load_study(const std::string& path) {
   reader.text({.name = "format", .doc = "kind and version"}, format);
   fields(reader, out);
   reader.finish();
+  out.places = places_of(root);
   for (const auto list : {&Study::set, &Study::vary, &Study::range})
     for (std::string& text : out.*list) text = config::with_present_key(text);
   out.largest = config::with_present_key(out.largest);
 
-  const config::Origin* named = config::find_origin(reader.origins(), "experiment");
-  const std::filesystem::path folder = std::filesystem::path(named->where.file).parent_path();
-  out.experiment = (folder / out.experiment).lexically_normal().string();
+  const config::Origin& named = *config::find_origin(reader.origins(), "experiment");
+  out.experiment = config::file_of(config::make_text("", out.experiment, named.where), named.path);
   return out;
 }
 
@@ -60,23 +59,33 @@ Study load_study(const std::string& path, const StudyOptions& options) {
 
 namespace {
 
+// Throws config::Error about a value of a plan, or of a setting given in addition.
+[[noreturn]] void refuse_value(const Study& study, const char* key, const std::string& text,
+                               std::string found, std::string expected, std::string try_this = "") {
+  config::fail({place_of(study.places, key, text), 0, 0}, "", std::move(found), std::move(expected),
+               std::move(try_this));
+}
+
 std::optional<Sample> sample_of(const Study& study) {
   if (study.range.empty()) {
+    const std::string points = std::to_string(study.points);
     if (study.points > 0)
-      config::fail({"points", 0, 0}, "", units::format_number(study.points),
-                   "ranges to sample from", "range=\"KEY=from:to unit\"");
+      refuse_value(study, "points", points, points, "ranges to sample from",
+                   "range=\"KEY=from:to unit\"");
     return std::nullopt;
   }
+  const std::string& first = study.range.front();
   if (study.points < 1)
-    config::fail({"range", 0, 0}, "", config::in_quotes(study.range.front()),
-                 "how many points to sample", "points=256");
+    refuse_value(study, "range", first, config::in_quotes(first), "how many points to sample",
+                 "points=256");
   Sample out{.kind = study.sample,
              .ranges = {},
              .points = static_cast<std::size_t>(study.points),
              .seed = static_cast<std::uint64_t>(study.sample_seed)};
-  for (const std::string& text : study.range) out.ranges.push_back(parse_range(text, "range"));
+  for (const std::string& text : study.range)
+    out.ranges.push_back(parse_range(text, place_of(study.places, "range", text)));
   if (out.ranges.size() > most_ranges)
-    config::fail({"range", 0, 0}, "", std::to_string(out.ranges.size()) + " ranges",
+    refuse_value(study, "range", first, std::to_string(out.ranges.size()) + " ranges",
                  "at most " + std::to_string(most_ranges));
   return out;
 }
@@ -86,7 +95,8 @@ void refuse_twice(const Sweep& s) {
   std::vector<std::string> seen;
   const auto take = [&](const Axis& axis) {
     if (std::ranges::find(seen, axis.key) != seen.end())
-      config::fail({axis.key, 0, 0}, "", "it given twice", "it once, in a range or in vary");
+      config::fail({axis.setting, 0, 0}, "", axis.key + " given twice",
+                   "it once, in a range or in vary");
     seen.push_back(axis.key);
   };
   if (s.sample)
@@ -95,27 +105,56 @@ void refuse_twice(const Sweep& s) {
 }
 
 Sweep words_of(const Study& study) {
-  Sweep out{.experiment = study.experiment, .sets = study.set};
+  const auto place = [&](const char* key, const std::string& text) {
+    return place_of(study.places, key, text);
+  };
+  Sweep out{.experiment = study.experiment, .sets = study.set, .places = study.places};
   out.allow_unreachable = study.allow_unreachable;
-  for (const std::string& text : study.vary) out.axes.push_back(parse_axis(text, "vary"));
-  if (study.seeds > 0) out.axes.push_back(seeds(study.seeds));
+  for (const std::string& text : study.vary)
+    out.axes.push_back(parse_axis(text, place("vary", text)));
+  if (study.seeds > 0)
+    out.axes.push_back(seeds(study.seeds, place("seeds", std::to_string(study.seeds))));
   out.sample = sample_of(study);
   refuse_twice(out);
   for (const std::string& text : study.report)
-    std::ranges::move(parse_figures(text, "report"), std::back_inserter(out.report));
+    std::ranges::move(parse_figures(text, place("report", text)), std::back_inserter(out.report));
   if (study.largest.empty()) {
     if (!study.where.empty())
-      config::fail({"where", 0, 0}, "", config::in_quotes(study.where.front()),
+      refuse_value(study, "where", study.where.front(), config::in_quotes(study.where.front()),
                    "a key whose largest value is searched", "largest=\"KEY=from:to:n\"");
     return out;
   }
-  out.largest = Search{parse_axis(study.largest, "largest"), {}, study.halvings};
+  out.largest =
+      Search{parse_axis(study.largest, place("largest", study.largest)), {}, study.halvings};
   for (const std::string& text : study.where)
-    out.largest->where.push_back(parse_condition(text, "where"));
+    out.largest->where.push_back(parse_condition(text, place("where", text)));
   if (study.where.empty())
-    config::fail({"largest", 0, 0}, "", "nothing that must hold", "key < value",
+    refuse_value(study, "largest", study.largest, "nothing that must hold", "key < value",
                  "where=\"joints.hip.tracking_rms_rad < 5 deg\"");
   return out;
+}
+
+// Gives the problem of a setting the place where a plan or a tuning has it; the last one applies.
+void find_place(const Sweep& s, const std::vector<std::string>& sets, config::Problem& problem) {
+  const auto set = std::find_if(sets.rbegin(), sets.rend(), [&](const std::string& text) {
+    const std::string key(trimmed(std::string_view(text).substr(0, text.find('='))));
+    return problem.key.empty() ? problem.found == config::in_quotes(text)
+                               : (problem.key + '.').starts_with(key + '.');
+  });
+  if (set == sets.rend()) return;
+  const auto place = s.places.find({"set", *set});
+  if (place != s.places.end()) problem.where = place->second;
+}
+
+// Returns the experiment of that file with these settings. Throws config::Error.
+experiment::Experiment built(const Sweep& s, const std::string& file,
+                             const std::vector<std::string>& sets) try {
+  return run::buildable(file, sets);
+} catch (const config::Error& e) {
+  std::vector<config::Problem> problems = e.problems();
+  for (config::Problem& problem : problems)
+    if (problem.where.file == "--set") find_place(s, sets, problem);
+  throw config::Error(std::move(problems));
 }
 
 }  // namespace
@@ -125,7 +164,7 @@ Sweep sweep_of(const Study& study) {
   if (!study.units.empty())
     show_in(config::parse_shown_units(study.units, {"units", 0, 0}, ""), out.report);
   if (!out.report.empty()) return out;
-  const experiment::Experiment e = run::buildable(out.experiment, out.sets);
+  const experiment::Experiment e = built(out, out.experiment, out.sets);
   out.report = reported_figures(e.reported, e.air.atmosphere);
   return out;
 }
@@ -136,20 +175,25 @@ namespace {
 
 const std::string& first_text(const Axis& axis) { return axis.values.front().text; }
 
+// Throws the mistake of an axis at the setting where the axis was written.
+[[noreturn]] void refuse_axis(const Axis& axis, const units::Mistake& mistake) {
+  config::fail({axis.setting, 0, 0}, "", axis.key + ": " + mistake.found, mistake.expected,
+               mistake.try_this);
+}
+
 [[noreturn]] void unknown_key(const Axis& axis, const config::Origins& origins) {
   std::vector<std::string_view> known;
   for (const config::Origin& origin : origins) known.push_back(origin.path);
-  config::fail({axis.key, 0, 0}, "", "an unknown key", "one that sinew show lists",
-               config::closest_in_quotes(axis.key, known));
+  refuse_axis(axis, {"an unknown key", "one that sinew show lists",
+                     config::closest_in_quotes(axis.key, known)});
 }
 
-// If one of an experiment's problems is that of an axis, throws it at the setting where the axis
-// was written.
-void refuse_axis(const Axis& axis, const config::Error& e) {
+// If one of an experiment's problems is that of an axis, or of the list with its element, throws
+// it.
+void throw_problem_of(const Axis& axis, const config::Error& e) {
   for (const config::Problem& problem : e.problems())
-    if (problem.key == axis.key)
-      config::fail({axis.setting, 0, 0}, "", axis.key + ": " + problem.found, problem.expected,
-                   problem.try_this);
+    if (problem.key == axis.key || axis.key.starts_with(problem.key + '['))
+      refuse_axis(axis, {problem.found, problem.expected, problem.try_this});
 }
 
 // Returns the experiment with a value of an axis. Throws config::Error if it is refused.
@@ -157,37 +201,37 @@ experiment::Experiment with_value(const Sweep& s, const Axis& axis, const std::s
   std::vector<std::string> sets = s.sets;
   sets.push_back(set);
   try {
-    return run::buildable(s.experiment, sets);
+    return built(s, s.experiment, sets);
   } catch (const config::Error& e) {
-    refuse_axis(axis, e);
+    throw_problem_of(axis, e);
     throw;
   }
 }
 
-// Checks the least and the greatest whole number, each alone. Other faults of the experiment are
-// ignored, since another axis may correct them.
-void check_whole_numbers(const Sweep& s, const Axis& axis) {
+// Checks the words, and the least and the greatest number, each alone. Other faults of the
+// experiment are ignored, since another axis may correct them.
+void check_without_unit(const Sweep& s, const Axis& axis) {
   const auto [least, greatest] = std::ranges::minmax_element(
       axis.values, {}, [](const Value& v) { return v.number.value_or(0); });
-  for (const Value* value : {&*least, &*greatest}) {
-    if (!value->number) continue;
+  for (const Value& value : axis.values) {
+    if (value.number && &value != &*least && &value != &*greatest) continue;
     std::vector<std::string> sets = s.sets;
-    sets.push_back(axis.set(*value));
+    sets.push_back(axis.set(value));
     try {
       (void)run::buildable(s.experiment, sets);
     } catch (const config::Error& e) {
-      refuse_axis(axis, e);
+      throw_problem_of(axis, e);
     }
   }
 }
 
 void check_values(const Sweep& s, const Axis& axis, const config::Origin& origin,
                   double atmosphere) {
-  if (origin.unit.empty()) return check_whole_numbers(s, axis);
+  if (origin.unit.empty()) return check_without_unit(s, axis);
   for (const Value& value : axis.values) {
     const auto mistake =
         units::parse_quantity(value.text, origin.unit, atmosphere, origin.text).mistake;
-    if (mistake) config::fail({axis.key, 0, 0}, "", *mistake);
+    if (mistake) refuse_axis(axis, *mistake);
   }
 }
 
@@ -199,10 +243,10 @@ void check_element(const Sweep& s, const Axis& axis) {
 
 void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins,
                 double atmosphere) {
-  if (axis.key == "robot") return;
+  if (axis.key == "robot") return check_without_unit(s, axis);
   if (axis.key.ends_with(']')) return check_element(s, axis);
   if (axis.key == "experiment") {
-    for (const Value& value : axis.values) run::buildable(experiment_path(s, value.text), s.sets);
+    for (const Value& value : axis.values) (void)built(s, experiment_path(s, value.text), s.sets);
     return;
   }
   if (const config::Origin* origin = config::find_origin(origins, axis.key))
@@ -220,8 +264,8 @@ void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins
 void check_range(const Sweep& s, const Range& range, const config::Origins& origins,
                  double atmosphere) {
   if (range.axis.key == "robot" || range.axis.key == "experiment")
-    config::fail({range.axis.key, 0, 0}, "", "a range", "a list of files, in vary",
-                 "vary=\"" + range.axis.key + "=a.toml,b.toml\"");
+    refuse_axis(range.axis, {"a range", "a list of files, in vary",
+                             "vary=\"" + range.axis.key + "=a.toml,b.toml\""});
   check_axis(s, range.axis, origins, atmosphere);
   const Axis between{range.axis.key, range.axis.unit, {range.at(0.4321)}, range.axis.setting};
   check_axis(s, between, origins, atmosphere);
@@ -231,7 +275,7 @@ void check_range(const Sweep& s, const Range& range, const config::Origins& orig
 void check_case(const Sweep& s, const Case& one) {
   std::vector<std::string> sets = s.sets;
   sets.insert(sets.end(), one.sets.begin(), one.sets.end());
-  (void)run::buildable(one.experiment.empty() ? s.experiment : one.experiment, sets);
+  (void)built(s, one.experiment.empty() ? s.experiment : one.experiment, sets);
 }
 
 // Refuses too many points, before they are allocated and before their number overflows.
@@ -246,7 +290,10 @@ void refuse_too_many(const Sweep& s) {
   if (!s.cases.empty()) times(s.cases.size());
   for (const Axis& axis : s.axes) times(axis.values.size());
   if (all <= static_cast<double>(most_points)) return;
-  config::fail({"vary", 0, 0}, "", fmt::format("{} = {:.6g} points", product, all),
+  std::string setting = "points";
+  if (s.sample && !s.sample->ranges.empty()) setting = s.sample->ranges.front().axis.setting;
+  if (!s.axes.empty()) setting = s.axes.front().setting;
+  config::fail({setting, 0, 0}, "", fmt::format("{} = {:.6g} points", product, all),
                fmt::format("at most {}", most_points),
                "fewer values, or one sweep after the other");
 }
@@ -255,9 +302,9 @@ void refuse_too_many(const Sweep& s) {
 
 void check(const Sweep& s) {
   refuse_too_many(s);
-  const config::Node root = config::compose(s.experiment, s.sets);
-  const double atmosphere = config::atmosphere_of(root);
-  const config::Origins origins = run::buildable(root, s.experiment).origins;
+  const experiment::Experiment e = built(s, s.experiment, s.sets);
+  const config::Origins& origins = e.origins;
+  const double atmosphere = e.air.atmosphere;
   if (s.sample)
     for (const Range& range : s.sample->ranges) check_range(s, range, origins, atmosphere);
   for (const Case& one : s.cases) check_case(s, one);
@@ -266,8 +313,8 @@ void check(const Sweep& s) {
   check_axis(s, s.largest->axis, origins, atmosphere);
   for (const Value& value : s.largest->axis.values)
     if (!value.number)
-      config::fail({s.largest->axis.key, 0, 0}, "", config::in_quotes(value.text),
-                   "numbers, to be halved between");
+      refuse_axis(s.largest->axis,
+                  {config::in_quotes(value.text), "numbers, to be halved between", ""});
 }
 
 }  // namespace sinew::tune

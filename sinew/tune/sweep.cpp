@@ -115,13 +115,24 @@ bool lacks_condition(const Search& search, const std::vector<std::string>& lacks
   });
 }
 
+// Throws config::Error for a figure or a condition whose key is probably misspelt.
+void refuse_misspelt(const Sweep& s, const analysis::Summary& summary) {
+  const auto check = [&](const std::string& key, const std::string& setting) {
+    if (const std::string near = analysis::nearest_key(key, summary); !near.empty())
+      refuse(setting, key, "a key of summary.json", config::in_quotes(near));
+  };
+  for (const Figure& figure : s.report) check(figure.key, figure.setting);
+  if (s.largest)
+    for (const Condition& condition : s.largest->where) check(condition.key, condition.setting);
+}
+
 void add_report(const Sweep& s, const RunResult& result, std::vector<std::string>& cells) {
   for (const Figure& figure : s.report)
     cells.push_back(result.ok() ? figure.cell(result.summary, result.atmosphere) : "");
 }
 
 Row single(const Sweep& s, std::size_t index, Point point, const RunResult& result, bool first) {
-  if (first && result.ok()) analysis::refuse_misspelt(keys(s), result.summary);
+  if (first && result.ok()) refuse_misspelt(s, result.summary);
   add_report(s, result, point.cells);
   Notes notes = notes_of(result, keys(s));
   point.cells.push_back(status_with(notes, result.status));
@@ -146,7 +157,7 @@ Row searched(const Sweep& s, const Points& points, std::size_t index, bool first
     std::vector<std::string> sets = point.sets;
     sets.push_back(search.axis.set(search.axis.at(number)));
     last = points.runs().run_once(point.experiment, sets);
-    if (++runs == 1 && first && last.ok()) analysis::refuse_misspelt(keys(s), last.summary);
+    if (++runs == 1 && first && last.ok()) refuse_misspelt(s, last.summary);
     const bool all = last.ok() && std::ranges::all_of(search.where, [&](const Condition& c) {
                        return c.holds(last.summary);
                      });

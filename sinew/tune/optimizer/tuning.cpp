@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -77,16 +76,10 @@ config::Location where(const TuningFile& file, const char* key) {
   config::fail(where(file, key), key, std::move(found), std::move(expected), std::move(try_this));
 }
 
-// Returns "plan.toml:7:1: range", the start of messages about one of its texts.
-std::string place(const TuningFile& file, const char* key) {
-  const config::Location at = where(file, key);
-  return fmt::format("{}:{}:{}: {}", at.file, at.line, at.column, key);
-}
-
 void add_goals(const TuningFile& file, const std::vector<std::string>& texts, const char* key,
                bool maximize, Goals& out) {
   for (const std::string& text : texts)
-    for (Figure& figure : parse_figures(text, place(file, key))) {
+    for (Figure& figure : parse_figures(text, place_of(file.places, key, text))) {
       for (const Goal& goal : out.goals)
         if (goal.figure.key == figure.key)
           refuse(file, key, figure.key + " twice", "each figure as one goal");
@@ -96,7 +89,7 @@ void add_goals(const TuningFile& file, const std::vector<std::string>& texts, co
 
 // Parses "key < 5 deg"; the figure is shown in degrees.
 Limit limit_of(const TuningFile& file, const std::string& text) {
-  const Condition condition = parse_condition(text, place(file, "where"));
+  const Condition condition = parse_condition(text, place_of(file.places, "where", text));
   const std::string si = analysis::unit_of_key(condition.key);
   const std::size_t number = text.find_first_of("0123456789.", text.find_first_of("<>"));
   const std::size_t end = text.find_first_not_of("0123456789.eE+-", number);
@@ -172,12 +165,12 @@ void refuse_twice(const TuningFile& file, const Sample& sample) {
 void add_ranges(const TuningFile& file, Tuning& out) {
   Sample sample{.ranges = {}, .given_later = true};
   for (const std::string& text : file.tune)
-    sample.ranges.push_back(parse_range(text, place(file, "tune")));
+    sample.ranges.push_back(parse_range(text, place_of(file.places, "tune", text)));
   out.tuned = sample.ranges.size();
   if (out.tuned == 0)
     refuse(file, "tune", "none", "what is tuned", "tune = [\"KEY=from:to unit\"]");
   for (const std::string& text : file.spread)
-    sample.ranges.push_back(parse_range(text, place(file, "spread")));
+    sample.ranges.push_back(parse_range(text, place_of(file.places, "spread", text)));
   refuse_twice(file, sample);
   const std::size_t drawn = sample.ranges.size() - out.tuned;
   if ((drawn > 0) != (file.draws > 0))
@@ -208,7 +201,7 @@ void add_report(const TuningFile& file, Tuning& out) {
   for (const Goal& goal : out.goals.goals) add_figure(goal.figure, report);
   for (const Limit& limit : out.goals.limits) add_figure(limit.figure, report);
   for (const std::string& text : file.report)
-    for (const Figure& figure : parse_figures(text, place(file, "report")))
+    for (const Figure& figure : parse_figures(text, place_of(file.places, "report", text)))
       add_figure(figure, report);
 }
 
@@ -263,18 +256,21 @@ TuningFile load_tuning_file(const std::string& path) {
   fields(reader, out);
   reader.finish();
   out.origins = reader.origins();
+  out.places = places_of(root);
   const auto present = [](std::vector<std::string>& texts) {
     for (std::string& text : texts) text = config::with_present_key(text);
   };
   for (const auto list : {&TuningFile::set, &TuningFile::tune, &TuningFile::spread})
     present(out.*list);
   for (Case& one : out.cases) present(one.sets);
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  const auto beside_it = [&](std::string& file) {
-    if (!file.empty()) file = (folder / file).lexically_normal().string();
+  const auto find_file = [&](const std::string& key, std::string& file) {
+    if (file.empty()) return;
+    const config::Location where = config::find_origin(out.origins, key)->where;
+    file = config::file_of(config::make_text("", file, where), key);
   };
-  beside_it(out.experiment);
-  for (Case& one : out.cases) beside_it(one.experiment);
+  find_file("experiment", out.experiment);
+  for (std::size_t i = 0; i < out.cases.size(); ++i)
+    find_file(fmt::format("case[{}].experiment", i), out.cases[i].experiment);
   return out;
 }
 
@@ -283,8 +279,11 @@ Tuning tuning_of(const std::string& path, const TuningFile& file) {
   refuse_contradictions(file, out.goals.limits);
   refuse_cases_twice(file);
   out.runs = {.experiment = file.experiment, .sets = file.set, .cases = file.cases};
+  out.runs.places = file.places;
   out.runs.allow_unreachable = file.allow_unreachable;
-  if (file.seeds > 0) out.runs.axes.push_back(seeds(file.seeds));
+  if (file.seeds > 0)
+    out.runs.axes.push_back(
+        seeds(file.seeds, place_of(file.places, "seeds", std::to_string(file.seeds))));
   add_ranges(file, out);
   add_report(file, out);
   out.method = method_of(file, out);

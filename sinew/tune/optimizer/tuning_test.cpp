@@ -78,19 +78,20 @@ TEST_F(TuningTest, ReportsWhereAndWhatIsWrong) {
   refuses("minimize", "maximise", "maximise");
   refuses("minimize = [\"joints.lever.tracking_rms_rad [deg]\"]", "", "no goal");
   refuses("tune = [\"joint.lever", "tune = [\"joint.lever.angle_gain=0.1 %/count\"]\n#",
-          "t.toml:4:1: tune: found \"0.1 %/count\"; expected KEY=from:to");
+          "t.toml:4:9: tune: found \"0.1 %/count\"; expected KEY=from:to");
   refuses("tune = [\"joint.lever.angle_gain", "tune = [\"joint.lever.angel_gain", "angle_gain");
   refuses("tune = [\"joint.lever.angle_gain=0.01:0.3 %/count log\"]",
           "tune = [\"joint.lever.angle_gain=0.3:0.3 %/count\"]", "two different ends");
   refuses(">= 50 %\"", ">= 50 %\", \"joints.lever.passiveness < 0.4\"",
           "expected limits that a number can keep together");
-  refuses("[deg]", "[lbf]", "t.toml:5:1: minimize: found");
+  refuses("[deg]", "[lbf]", "t.toml:5:13: minimize: found");
   refuses("generations = 4", "maximize = [\"air_used_kg\"]\npopulation = 6", "a multiple of 4");
   refuses("generations = 4", "method = \"cmaes\"\nmaximize = [\"air_used_kg\"]",
           "\"cmaes\" with several goals");
   refuses("generations = 4", "method = \"nsga2\"", "\"nsga2\" with one goal");
   refuses("generations = 4", "draws = 4", "found no spread");
-  refuses("generations = 4", "generations = 100000\nseeds = 10", "at most 1000000");
+  refuses("generations = 4", "generations = 100000\nseeds = 10",
+          "t.toml:8:1: seeds: found 1600000 x 10");
   refuses("generations = 4", "[[case]]\nname = \"a\"\nset = [\"sequence.repaet=2\"]", "repeat");
   refuses("generations = 4", "[[case]]\nname = \"a\"\n[[case]]\nname = \"a\"",
           "\"a\" twice; expected a name of its own");
