@@ -41,10 +41,13 @@ std::string unchanging(const fs::path& file) {
   return "file:" + name + "?immutable=1";
 }
 
+// A reader opens the file for writing, too, if it may: otherwise SQLite leaves FILE-wal and FILE-shm
+// when the reader is the last one that closes it.
 int open(const fs::path& file, Database::Use use, sqlite3*& handle) {
-  const int how = use == Database::Use::write ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY;
-  const int code = sqlite3_open_v2(file.c_str(), &handle, how, nullptr);
+  const int code = sqlite3_open_v2(file.c_str(), &handle, SQLITE_OPEN_READWRITE, nullptr);
   if (code != SQLITE_OK) return code;
+  if (use == Database::Use::read)
+    sqlite3_exec(handle, "PRAGMA query_only = true", nullptr, nullptr, nullptr);
   sqlite3_extended_result_codes(handle, 1);
   sqlite3_busy_timeout(handle, patience);
   return sqlite3_exec(handle, "SELECT count(*) FROM sqlite_schema", nullptr, nullptr, nullptr);

@@ -16,7 +16,7 @@ class Statement;
 // Every member function throws log::Error with the name of the file, the fault and the remedy.
 class Database {
  public:
-  // read: others may write meanwhile; nothing is created or changed.
+  // read: others may write meanwhile; no row is changed, and no file is left.
   enum class Use { write, read };
 
   // Opens the file; to write, creates it if it is missing.
