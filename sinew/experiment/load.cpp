@@ -19,6 +19,7 @@
 #include "sinew/robot/legs.h"
 #include "sinew/signals/tick.h"
 #include "sinew/units/hash.h"
+#include "sinew/units/quantity.h"
 #include "sinew/units/ranges.h"
 
 namespace sinew::experiment {
@@ -62,6 +63,30 @@ bool in_robots(const std::string& file) {
   return folder.filename() == "robots" || folder.parent_path().filename() == "robots";
 }
 
+// Warns of given numbers that the fit of a bladder excludes (actuator::loosen).
+void warn_of_loose_bladders(Experiment& e) {
+  const auto warn = [&e](const std::string& key, const std::string& of) {
+    const config::Origin* origin = config::find_origin(e.origins, key);
+    const config::Origin* fit = config::find_origin(e.origins, of + ".bladder.fit");
+    if (!origin || origin->is_default || !fit) return;
+    if (units::parse_quantity(origin->text, origin->unit, e.air.atmosphere).si == 0) return;
+    e.warnings.push_back({origin->where, key,
+                          config::in_quotes(origin->text) + ", which has no effect",
+                          "0 with " + of + ".bladder.fit = " + config::in_quotes(fit->text),
+                          "to remove it, or \"stretched\""});
+  };
+  for (const actuator::Actuator& a : e.actuators) {
+    if (a.bladder.fit == actuator::Bladder::Fit::stretched) continue;
+    const std::string of = "actuator." + a.name;
+    for (const char* key : {".bladder.stiffness", ".bladder.quadratic", ".bladder.cubic",
+                            ".bladder.saturating_tension", ".effectiveness.threshold"})
+      warn(of + key, of);
+    if (a.bladder.fit == actuator::Bladder::Fit::liner) warn(of + ".wall.thickness", of);
+    for (const robot::Muscle& m : e.robot.muscles)
+      if (m.actuator == a.name) warn("muscle." + m.name + ".bladder_stiffness", of);
+  }
+}
+
 // Reads a file of that kind; the rest of the experiment keeps its defaults.
 Experiment read(const config::Node& root, std::string_view kind, const std::string& path) {
   const bool runs = kind == "experiment";
@@ -91,6 +116,7 @@ Experiment read(const config::Node& root, std::string_view kind, const std::stri
 
   e.origins = reader.origins();
   e.warnings = reader.warnings();
+  warn_of_loose_bladders(e);
   e.unsourced = reader.unsourced();
   copy_settle(e);
   if ((runs && !e.stand) || kind == "robot") read_timing(e);
