@@ -64,7 +64,7 @@ ExitCode run_actuator(const ActuatorOptions& options) {
   const auto file = experiment::load_machine_file(options.file);
   const gas::Air& air = file.experiment.air;
   const actuator::Actuator& a =
-      config::named(file.experiment.actuators, options.name, "--name", "actuator");
+      config::named(file.experiment.actuators, options.name, "--name", "actuator", options.file);
   const QuantityRange lengths =
       config::range_setting("--length", options.length, "m", air.atmosphere, possible_lengths(a));
   const QuantityRange pressures =
@@ -150,7 +150,8 @@ std::vector<run::Transfers> transfers(const gas::Valve& valve, gas::Air air, dou
 ExitCode run_valve(const ValveOptions& options) {
   const auto file = experiment::load_machine_file(options.file);
   const gas::Air& air = file.experiment.air;
-  const gas::Valve& valve = config::named(file.experiment.valves, options.name, "NAME", "valve");
+  const gas::Valve& valve =
+      config::named(file.experiment.valves, options.name, "NAME", "valve", options.file);
   const double up =
       quantity_setting("--upstream", options.upstream, "Pa abs", air.atmosphere, air_pressure);
   const double down =

@@ -47,7 +47,7 @@ constexpr std::string_view further =
 
 // Settings that are no subject of a problem: a file, or a word of the line, may be called so.
 constexpr std::string_view no_subjects =
-    " actuator columns device extensor file flexor joint json largest only root run score ";
+    " actuator columns device extensor file flexor json only root run score ";
 
 // Settings whose names are also keys of units, as in "length=mm", or words of a message, as in
 // "name=value": with a value in quotes alone.

@@ -78,20 +78,20 @@ std::string listed(const std::vector<std::string>& words, std::size_t most);
 // Lookup of a list's item by name; a single item needs no name.
 
 // Returns the item with that name, or the only item if the name is "". Throws Error that begins
-// with `where`: a file, a key or an option; `what` is the kind of items, "valve".
+// with `where`: a file, a key or an option; without items it begins with `file`, if that is given.
+// `what` is the kind of items, "valve".
 template <class Item>
 const Item& named(const std::vector<Item>& items, const std::string& name, std::string_view where,
-                  std::string_view what) {
+                  std::string_view what, std::string_view file = "") {
   if (name.empty() && items.size() == 1) return items.front();
   for (const Item& item : items)
     if (item.name == name) return item;
   const std::vector<std::string_view> names = names_of(items);
   const std::string no = "no " + std::string(what);
-  fail({std::string(where), 0, 0}, "",
-       items.empty()  ? no + " in the file"
-       : name.empty() ? no
-                      : in_quotes(name),
-       items.empty() ? "a file with one" : either(names), closest_in_quotes(name, names));
+  if (items.empty())
+    fail({std::string(file.empty() ? where : file), 0, 0}, "", no, "a file with one");
+  fail({std::string(where), 0, 0}, "", name.empty() ? no : in_quotes(name), either(names),
+       closest_in_quotes(name, names));
 }
 
 }  // namespace sinew::config

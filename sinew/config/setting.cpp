@@ -99,8 +99,10 @@ QuantityRange range_setting(std::string_view name, std::string_view text, std::s
     fail({std::string(name), 0, 0}, "", in_quotes(found), std::move(expected), std::move(try_this));
   };
   const std::vector<std::string_view> parts = split(text, ':');
-  if (parts.size() != 1 && parts.size() != 3)
-    refuse(text, "a quantity, or from:to:step", range_example(unit, parts[0]));
+  const bool has_units = parts.size() != 3 || unit == "1" || units::written_unit(parts[0]) != "1";
+  if ((parts.size() != 1 && parts.size() != 3) || !has_units)
+    refuse(text, "a quantity, or from:to:step, each with its unit",
+           range_example(unit, has_units ? parts[0] : parts[2]));
   QuantityRange out{{quantity_setting(name, parts[0], unit, atmosphere, range)},
                     units::written_unit(parts[0])};
   if (parts.size() == 1) return out;

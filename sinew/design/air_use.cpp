@@ -162,7 +162,7 @@ AirUses of_muscle(const AirSettings& s) {
   const gas::Air& air = file.experiment.air;
   const config::SettingValues values(s, air.atmosphere);
   const actuator::Actuator& a =
-      config::named(file.experiment.actuators, s.name, "name", "actuator");
+      config::named(file.experiment.actuators, s.name, "name", "actuator", s.use);
   for (const auto& [name, given] : {std::pair{"cycles", !s.cycles.empty()},
                                     {"contraction", !s.contraction.empty()},
                                     {"muscles", s.muscles > 0}})

@@ -37,12 +37,16 @@ struct Candidate {
 JointTask task_of(const JointSettings& s, const config::SettingValues& values) {
   JointTask task;
   task.angles = values.of(s.angles);
-  task.motion = std::max(values.given(s.motion).value_or(task.angles), task.angles);
+  task.motion = values.given(s.motion).value_or(task.angles);
+  if (task.motion < task.angles)
+    config::refuse_setting("motion", config::in_quotes(s.motion),
+                           "at least the angles, " + s.angles, "leaving it out");
   task.pressure = values.of(s.pressure);
   task.external_volume = values.of(s.external_volume);
   task.arm = s.arm == "lever" ? Arm::lever : Arm::cam;
   if (task.arm == Arm::lever && task.motion > max_lever_motion)
-    config::refuse_setting("motion", config::in_quotes(s.motion.empty() ? s.angles : s.motion),
+    config::refuse_setting(s.motion.empty() ? "angles" : "motion",
+                           config::in_quotes(s.motion.empty() ? s.angles : s.motion),
                            "at most 150 deg with a lever, whose arm is zero at its dead points",
                            "a cam");
   if (s.torque.empty() == s.load.empty())
@@ -262,7 +266,7 @@ std::string robot_file(const JointSettings& s, const Candidate& c, double extern
   namespace fs = std::filesystem;
   const experiment::MachineFile base = experiment::load_machine_file(s.base);
   const robot::Robot& robot = base.experiment.robot;
-  const robot::Joint& joint = config::named(robot.joints, s.joint, "joint", "joint");
+  const robot::Joint& joint = config::named(robot.joints, s.joint, "joint", "joint", s.base);
   const std::string source = fmt::format("sinew design joint with {}", s.actuator);
   // Each value has its own source: one of the table would replace that of the base's values.
   const auto put_sourced = [&](config::Node& table, std::string_view key, config::Node value) {
@@ -350,7 +354,7 @@ Result design(const JointSettings& s) {
   const gas::Air& air = file.experiment.air;
   const config::SettingValues values(s, air.atmosphere);
   const actuator::Actuator& own =
-      config::named(file.experiment.actuators, s.name, "name", "actuator");
+      config::named(file.experiment.actuators, s.name, "name", "actuator", s.actuator);
   const JointTask task = task_of(s, values);
   Nearest nearest;
   const std::vector<Candidate> all = candidates(s, task, own, air, nearest);

@@ -103,7 +103,8 @@ report::Plot survival_plot(LifeBounds life, double per_second, int muscles) {
 Result design(const LifeSettings& s) {
   const auto file = experiment::load_machine_file(s.actuator).experiment;
   const config::SettingValues values(s, file.air.atmosphere);
-  const actuator::Actuator& a = config::named(file.actuators, s.name, "name", "actuator");
+  const actuator::Actuator& a =
+      config::named(file.actuators, s.name, "name", "actuator", s.actuator);
   Evidence evidence = evidence_of(s, file, a);
   if (s.silicone) {
     evidence.life.factor_least /= latex_to_silicone, evidence.life.factor_most /= latex_to_silicone;

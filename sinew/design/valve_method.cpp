@@ -63,7 +63,7 @@ Filled filled_by_actuator(const ValveSettings& s) {
   const experiment::MachineFile file = experiment::load_machine_file(s.actuator);
   const config::SettingValues values(s, file.experiment.air.atmosphere);
   const actuator::Actuator& a =
-      config::named(file.experiment.actuators, s.name, "name", "actuator");
+      config::named(file.experiment.actuators, s.name, "name", "actuator", s.actuator);
   if (!s.volume.empty())
     config::refuse_setting("volume", "a volume with an actuator", "one of them");
   if (s.length.empty())

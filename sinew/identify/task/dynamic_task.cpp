@@ -163,8 +163,8 @@ DynamicFound find(const SourceList& sources, const DynamicSettings& settings) {
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
   const SettingValues values(settings, sources[0].atmosphere);
   const experiment::MachineFile start = experiment::load_machine_file(settings.actuator);
-  const actuator::Actuator& a =
-      config::named(start.experiment.actuators, settings.name, "name", "actuator");
+  const actuator::Actuator& a = config::named(start.experiment.actuators, settings.name, "name",
+                                              "actuator", settings.actuator);
   DynamicFound out(identify_dynamic(records_of(sources, settings, values, a), settings.model,
                                     Constraints(settings.constraints)));
   out.files = {

@@ -221,8 +221,8 @@ JointFound find(const SourceList& sources, const JointSettings& settings) {
                  "round or hinge with it");
   const JointNames names = names_of(settings);
   const experiment::MachineFile start = experiment::load_machine_file(settings.actuator);
-  const actuator::Actuator& a =
-      config::named(start.experiment.actuators, settings.name, "name", "actuator");
+  const actuator::Actuator& a = config::named(start.experiment.actuators, settings.name, "name",
+                                              "actuator", settings.actuator);
   JointSetup setup = setup_of(settings, a, sources[0].atmosphere);
   for (const Source& source : sources)
     if (sources.size() > 1) setup.recordings.push_back(source.path);

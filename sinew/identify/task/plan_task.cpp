@@ -305,7 +305,8 @@ PlanFound first_plan(const PlanSettings& settings, double atmosphere) {
     out.subject = fmt::format("a muscle of {:.4g} mm, {:.3g} mm wide", 1e3 * rest, 1e3 * diameter);
   } else {
     const auto file = experiment::load_machine_file(settings.actuator);
-    const auto& a = config::named(file.experiment.actuators, "", "actuator", "actuator");
+    const auto& a =
+        config::named(file.experiment.actuators, "", "actuator", "actuator", settings.actuator);
     double rest = a.prediction.rest_length;
     if (!settings.rest_length.empty() || !(rest > 0))
       rest = read.needed("rest_length", settings.rest_length,

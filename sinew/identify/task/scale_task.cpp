@@ -110,7 +110,7 @@ ScaleFound find(const SourceList&, const ScaleSettings& s) {
   const double atmosphere = atmosphere_setting(s.atmosphere);
   const auto file = experiment::load_machine_file(s.file);
   const actuator::Actuator old =
-      config::named(file.experiment.actuators, s.actuator, "actuator", "actuator");
+      config::named(file.experiment.actuators, s.actuator, "actuator", "actuator", s.file);
   const double rest_length = SettingValues(s, atmosphere).of(s.rest_length);
   ScaleFound out;
   const double weight = weight_of_force(file.experiment.origins, old.name);

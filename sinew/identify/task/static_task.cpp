@@ -248,7 +248,7 @@ void put_checkup(const CheckFound& found, const TextOptions& how, std::string& o
 std::optional<actuator::Braid> known_braid(const std::string& file_name) {
   if (file_name.empty()) return {};
   const auto file = experiment::load_machine_file(file_name);
-  return config::named(file.experiment.actuators, "", "actuator", "actuator").braid;
+  return config::named(file.experiment.actuators, "", "actuator", "actuator", file_name).braid;
 }
 
 StaticData read_static(const std::vector<Source>& sources, const StaticSettings& settings) {

@@ -142,7 +142,7 @@ ValveOptions options_of(const ValveSettings& s, const SettingValues& values, dou
   out.valve.profile = gas::Valve::Profile::ideal;
   if (!s.base.empty()) {
     const auto file = experiment::load_machine_file(s.base);
-    out.valve = config::named(file.experiment.valves, s.name, "name", "valve");
+    out.valve = config::named(file.experiment.valves, s.name, "name", "valve", s.base);
     out.provenance = Provenance(file.experiment.origins, s.base);
   }
   out.air.atmosphere = atmosphere;
