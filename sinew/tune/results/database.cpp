@@ -41,8 +41,8 @@ std::string unchanging(const fs::path& file) {
   return "file:" + name + "?immutable=1";
 }
 
-// A reader opens the file for writing, too, if it may: otherwise SQLite leaves FILE-wal and FILE-shm
-// when the reader is the last one that closes it.
+// A reader opens the file for writing, too, if it may: otherwise SQLite leaves FILE-wal and
+// FILE-shm when the reader is the last one that closes it.
 int open(const fs::path& file, Database::Use use, sqlite3*& handle) {
   const int code = sqlite3_open_v2(file.c_str(), &handle, SQLITE_OPEN_READWRITE, nullptr);
   if (code != SQLITE_OK) return code;
