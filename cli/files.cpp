@@ -12,6 +12,7 @@
 #include "sinew/files/new_file.h"
 #include "sinew/files/values.h"
 #include "sinew/json/json.h"
+#include "sinew/units/shell.h"
 
 namespace sinew::cli {
 
@@ -50,12 +51,11 @@ ExitCode write(const NewCommandOptions& options) {
     return failed;
   }
   messages.note("valid as written; its comments describe each table. Next:");
-  std::string file = made.files[0];
-  if (file.find(' ') != file.npos) file = '"' + file + '"';  // for a shell
+  const std::string file = units::shell_word(made.files[0]);
   for (const auto& [kind, command] : next_commands)
     if (kind.empty() || kind == options.kind)
       messages.note("  " + fmt::format(fmt::runtime(command), fmt::arg("file", file),
-                                       fmt::arg("name", options.name)));
+                                       fmt::arg("name", units::shell_word(options.name))));
   return ok;
 }
 

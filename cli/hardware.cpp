@@ -25,6 +25,7 @@
 #include "sinew/run/card/speed.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/simulation/place.h"
+#include "sinew/units/shell.h"
 
 namespace sinew::cli {
 
@@ -161,7 +162,7 @@ std::string names_of_boards() {
 void print_flash(const run::FirmwareBoard& board, const std::string& file) {
   const std::string command = run::flash_command(board, file);
   fmt::print("{}\n", command.empty() ? fmt::format("sinew run EXPERIMENT --port {}",
-                                                   run::shell_word("emulated:" + file))
+                                                   units::shell_word("emulated:" + file))
                                      : command);
 }
 

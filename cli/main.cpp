@@ -18,6 +18,7 @@
 #include "sinew/config/changes.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/shipped.h"
+#include "sinew/units/shell.h"
 
 namespace {
 
@@ -33,7 +34,7 @@ std::string message_of(const std::exception& e) {
   if (p.key != "format" || p.found != config::in_quotes("robot") ||
       p.expected != config::in_quotes(config::newest_format("experiment")))
     return e.what();
-  p.try_this = "sinew new experiment NAME --of " + p.where.file;
+  p.try_this = "sinew new experiment NAME --of " + units::shell_word(p.where.file);
   return config::to_text(p);
 }
 

@@ -15,10 +15,13 @@
 #include "sinew/run/bring_up/wires.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/setup/installation.h"
+#include "sinew/units/shell.h"
 
 namespace sinew::run {
 
 namespace fs = std::filesystem;
+
+using units::is_plain_word, units::shell_word;
 
 namespace {
 
@@ -33,18 +36,6 @@ constexpr FirmwareBoard boards[] = {
     {"teensy41", "PJRC's Teensy 4.1, an i.MX RT1062", 14, 16,
      "teensy_loader_cli -mmcu=TEENSY41 -w -v {file}", ".hex"},
 };
-
-std::string quoted(const std::string& word) {
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
-bool is_plain(const std::string& word) {
-  return word.find_first_not_of(
-             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-             "-_./:=@%+,") == word.npos;
-}
 
 // A temporary folder, removed by the destructor.
 struct Workshop {
@@ -69,7 +60,7 @@ std::string last_lines(const fs::path& file) {
 }
 
 void work(const std::string& command, const fs::path& output) {
-  const std::string line = command + " > " + quoted(output.string()) + " 2>&1";
+  const std::string line = command + " > " + shell_word(output.string()) + " 2>&1";
   if (std::system(line.c_str()) != 0)
     throw std::runtime_error("the firmware was not built; " + command + last_lines(output));
 }
@@ -80,7 +71,7 @@ fs::path converted(const fs::path& image, const std::string& extension, const fs
   if (!bare && extension != ".hex") return image;
   const fs::path out = image.string() + extension;
   work(fmt::format("arm-none-eabi-objcopy -O {} {} {}", bare ? "binary" : "ihex",
-                   quoted(image.string()), quoted(out.string())),
+                   shell_word(image.string()), shell_word(out.string())),
        output);
   return out;
 }
@@ -98,8 +89,6 @@ bool has_program(const std::string& name) {
 }  // namespace
 
 std::span<const FirmwareBoard> firmware_boards() { return boards; }
-
-std::string shell_word(const std::string& word) { return is_plain(word) ? word : quoted(word); }
 
 const FirmwareBoard& firmware_board(const std::string& name) {
   std::vector<std::string_view> names;
@@ -170,11 +159,11 @@ void build_firmware(const fs::path& sources, const FirmwareBoard& board, const f
   work(
       fmt::format("cmake -S {} -B {} -G Ninja -DCMAKE_TOOLCHAIN_FILE={} -DCMAKE_BUILD_TYPE=Release "
                   "-DSINEW_LOW_GIVES_CURRENT={}",
-                  quoted(sources.string()), quoted(build.string()),
-                  quoted((sources / "firmware" / "cortex-m4f.cmake").string()),
+                  shell_word(sources.string()), shell_word(build.string()),
+                  shell_word((sources / "firmware" / "cortex-m4f.cmake").string()),
                   low_gives_current ? "ON" : "OFF"),
       output);
-  work(fmt::format("ninja -C {} {}", quoted(build.string()), image), output);
+  work(fmt::format("ninja -C {} {}", shell_word(build.string()), image), output);
   const fs::path made = converted(build / "firmware" / image, out.extension().string(), output);
   std::ifstream in(made, std::ios::binary);
   write_file(out, std::string(std::istreambuf_iterator<char>(in), {}));
@@ -191,12 +180,12 @@ std::string flash_command(const FirmwareBoard& board, const fs::path& file) {
   if (quote == out.npos) return out.replace(at, 6, shell_word(file.string()));
   // This is one shell word with a command of openocd, in which braces hold a name together.
   const std::string name =
-      is_plain(file.string()) ? file.string() : fmt::format("{{{}}}", file.string());
+      is_plain_word(file.string()) ? file.string() : fmt::format("{{{}}}", file.string());
   out.replace(at, 6, fmt::format("{}{}", name, where));
-  if (is_plain(file.string())) return out;
+  if (is_plain_word(file.string())) return out;
   const std::size_t end = out.rfind('"');
   const std::string words = out.substr(quote + 1, end - quote - 1);
-  return out.replace(quote, end - quote + 1, quoted(words));
+  return out.replace(quote, end - quote + 1, shell_word(words));
 }
 
 }  // namespace sinew::run

@@ -40,9 +40,6 @@ bool low_gives_current(const std::string& robot);
 void build_firmware(const std::filesystem::path& sources, const FirmwareBoard& board,
                     const std::filesystem::path& out, bool low_gives_current, bool force);
 
-// Returns the word as a shell reads it, in quotes where necessary.
-std::string shell_word(const std::string& word);
-
 // Returns the shell command that loads the file onto the board. Throws config::Error if the command
 // does not accept this form of file.
 std::string flash_command(const FirmwareBoard& board, const std::filesystem::path& file);

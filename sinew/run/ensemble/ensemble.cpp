@@ -19,6 +19,7 @@
 #include "sinew/run/ensemble/many.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/units/quantity.h"
+#include "sinew/units/shell.h"
 
 namespace sinew::run {
 namespace {
@@ -96,7 +97,7 @@ Ensemble::Ensemble(const std::string& experiment, const std::vector<std::string>
       start_(start({})) {
   for (const std::string& key : unknown())
     config::fail({experiment, 0, 0}, key, "a parameter", "a number of the experiment",
-                 "sinew show " + experiment);
+                 "sinew show " + units::shell_word(experiment));
 }
 
 Ensemble::Ensemble(config::Composer& files, const std::string& experiment,
