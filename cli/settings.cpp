@@ -42,7 +42,8 @@ const std::set<std::string_view>& names_of_rows() {
 constexpr std::string_view further =
     " align align_by candidate channels clock columns dates decimal device drop_incomplete "
     "encoding event font foot force fps json label largest names offsets only output part points "
-    "predict_dat range rate report root shard speed spread_times thousands title to units values "
+    "predict_dat range rate report root seeds shard speed spread_times thousands title to units "
+    "values "
     "vary where within ";
 
 // Settings that are no subject of a problem: a file, or a word of the line, may be called so.

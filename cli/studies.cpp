@@ -23,6 +23,7 @@
 #include "sinew/tune/sensitivity.h"
 #include "sinew/tune/study.h"
 #include "sinew/tune/table.h"
+#include "sinew/units/shell.h"
 
 namespace sinew::cli {
 
@@ -165,6 +166,14 @@ void add_sample(CLI::App& sub, SweepOptions& options) {
       ->transform(between(0, 2147483647));
 }
 
+// Refuses a file that cannot be written, before the runs begin.
+void require_place(const std::string& file, bool force, const std::vector<fs::path>& inputs,
+                   std::string_view own = "") {
+  if (file.empty()) return;
+  run::refuse_to_overwrite(file, force, inputs, own);
+  run::require_folder_of(file);
+}
+
 // --- tune ---
 
 struct TuneOptions : Flags {
@@ -199,7 +208,7 @@ std::string command_of(const tune::Tuning& tuning, const tune::Candidate& candid
   std::vector<std::string> sets = tuning.runs.sets;
   for (std::size_t i = 0; i < tuning.tuned; ++i)
     sets.push_back(tuning.runs.sample->ranges[i].axis.set(candidate.values[i]));
-  std::string out = "sinew run " + tuning.runs.experiment;
+  std::string out = "sinew run " + units::shell_word(tuning.runs.experiment);
   for (const std::string& set : sets)
     out += fmt::format(" --set {0}{1}{0}", set.find('"') == set.npos ? '"' : '\'', set);
   return out + (tuning.runs.allow_unreachable ? " --allow-unreachable" : "");
@@ -229,8 +238,8 @@ ExitCode tune_all(const TuneOptions& given) {
   const Messages messages(options.quiet);
   const tune::Tuning tuning = read_tuning();
   const std::vector<fs::path> inputs{options.file, tuning.runs.experiment};
-  if (!options.out.empty()) run::refuse_to_overwrite(options.out, options.force, inputs);
-  if (!options.best.empty()) run::refuse_to_overwrite(options.best, options.force, inputs, ".toml");
+  require_place(options.out, options.force, inputs);
+  require_place(options.best, options.force, inputs, ".toml");
 
   const tune::Tuned tuned = run_tuning(tuning, options, master, messages);
   const auto print = [&] {
@@ -287,7 +296,7 @@ ExitCode print_sensitivity(const SensitivityOptions& options) {
   const tune::Sweep runs = runs_of(options, design);
   tune::check(runs);
   const std::vector<fs::path> inputs{options.study.experiment};
-  if (!options.out.empty()) run::refuse_to_overwrite(options.out, options.force, inputs);
+  require_place(options.out, options.force, inputs);
   std::optional<tune::TableFile> csv;
   if (!options.runs.empty()) csv.emplace(options.runs, tune::headings(runs), options.force, inputs);
 

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,7 @@
 #include "sinew/units/hash.h"
 #include "sinew/units/quantity.h"
 #include "sinew/units/ranges.h"
+#include "sinew/units/shell.h"
 
 namespace sinew::experiment {
 
@@ -29,12 +31,14 @@ using config::Problem;
 namespace {
 
 Problem not_an_experiment(const config::Node& root, const std::string& path) {
+  const std::string_view kind = config::format_kind(root);
   Problem p;
   p.where.file = path;
   p.key = "format";
-  p.found = config::in_quotes(config::format_kind(root));
+  p.found = config::in_quotes(kind);
   p.expected = config::in_quotes(config::newest_format("experiment"));
-  p.try_this = "sinew check " + path;
+  const char* command = kind == "plan" ? "sweep" : kind == "tuning" ? "tune" : "check";
+  p.try_this = fmt::format("sinew {} {}", command, units::shell_word(path));
   return p;
 }
 

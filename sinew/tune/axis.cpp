@@ -81,7 +81,9 @@ void refuse_equal_ends(const std::vector<double>& ends, std::string_view text, c
 }
 
 void add_range(Axis& axis, std::string_view text, std::string_view setting) {
-  const Form form{setting, 3, "from:to:how many", fmt::format("\"{}=0:1:5 unit\"", axis.key)};
+  const auto last = number_in(trimmed(text.substr(text.rfind(':') + 1)));
+  const std::string unit = last && !last->unit.empty() ? fmt::format(" {}", last->unit) : "";
+  const Form form{setting, 3, "from:to:how many", fmt::format("\"{}=0:1:5{}\"", axis.key, unit)};
   const std::vector<double> parts = between_colons(axis, text, form);
   const double from = parts[0], to = parts[1], n = parts[2];
   if (n != std::floor(n) || n < 2 || n > most_values)
@@ -146,7 +148,7 @@ Axis parse_axis(std::string_view text, std::string_view setting) {
             .unit = {},
             .values = {},
             .setting = std::string(setting)};
-  if (equals == text.npos || axis.key.empty())
+  if (equals == text.npos || axis.key.empty() || trimmed(text.substr(equals + 1)).empty())
     refuse(setting, text, "KEY=a,b,c or KEY=from:to:how many, and the unit",
            "\"joint.hip.angle_gain=0.02:0.1:5 %/count\"");
   const std::string_view values = trimmed(text.substr(equals + 1));

@@ -44,6 +44,7 @@ TableFile::TableFile(const std::filesystem::path& file, std::vector<std::string>
                      bool force, const std::vector<std::filesystem::path>& inputs)
     : name_(file), headings_(std::move(headings)) {
   run::refuse_to_overwrite(name_, force, inputs);
+  run::require_folder_of(name_);
   log::require_free_part(name_);
 }
 

@@ -29,9 +29,11 @@ class PlanReader {
   // Throws config::Error with `name` if a required setting is missing.
   double needed(std::string_view name, const std::string& member, std::string_view what) const {
     if (member.empty())
-      config::fail(
-          {std::string(name), 0, 0}, "", "nothing", std::string(what),
-          fmt::format("{}={}", name, name == "pressure" ? "\"600 kPa gauge\"" : "\"250 mm\""));
+      config::fail({std::string(name), 0, 0}, "", "nothing", std::string(what),
+                   fmt::format("{}=\"{}\"", name,
+                               name == "pressure"   ? "600 kPa gauge"
+                               : name == "diameter" ? "12 mm"
+                                                    : "250 mm"));
     return values_.of(member);
   }
 
@@ -341,6 +343,9 @@ PlanFound next_plan(const std::vector<Source>& sources, const PlanSettings& sett
 }  // namespace
 
 PlanFound find(const SourceList& sources, const PlanSettings& settings, double atmosphere) {
+  if (!settings.diameter.empty() && (!sources.empty() || !settings.actuator.empty()))
+    config::refuse_setting("diameter", config::in_quotes(settings.diameter),
+                           "none with measurements or an actuator's file", "leaving it out");
   return sources.empty() ? first_plan(settings, atmosphere) : next_plan(sources, settings);
 }
 

@@ -1,8 +1,12 @@
 #include "sinew/run/folder/files.h"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdio>
 
 #include "sinew/run/folder/run_folder.h"
+#include "sinew/units/shell.h"
 
 namespace sinew::run {
 
@@ -39,7 +43,12 @@ void refuse_to_overwrite(const fs::path& file, bool force, const std::vector<fs:
 void require_folder_of(const fs::path& file) {
   const fs::path folder = file.parent_path();
   if (!folder.empty() && !fs::is_directory(folder))
-    refuse(file, "no folder " + folder.string(), "one that exists", "mkdir -p " + folder.string());
+    refuse(file, "no folder " + folder.string(), "one that exists",
+           "mkdir -p " + units::shell_word(folder.string()));
+  const bool direct = log::is_written_directly(file);
+  if (!direct && ::access(folder.empty() ? "." : folder.c_str(), W_OK) != 0)
+    throw log::Error(file, "cannot be written: " + log::system_error_text(errno),
+                     "choose a folder that exists and that you may write to");
 }
 
 void write_file(const fs::path& file, std::string_view text, log::Replacement::Sync sync) {

@@ -20,7 +20,8 @@ void refuse_to_overwrite(const std::filesystem::path& file, bool force,
                          const std::vector<std::filesystem::path>& inputs = {},
                          std::string_view own = "");
 
-// Throws config::Error if the folder that is to contain the file is missing.
+// Throws config::Error if the folder that is to contain the file is missing, and log::Error if it
+// may not be written to.
 void require_folder_of(const std::filesystem::path& file);
 
 // Writes the file completely and then replaces an older one. Throws config::Error or log::Error;

@@ -180,17 +180,14 @@ void Generation::require_figures(const std::vector<Row>& rows) const {
         "none of the first generation's {} runs has figures: {}; try ranges around what the "
         "experiment has",
         rows.size(), rows.front().cells.back()));
-  const auto require = [&](const char* key, const Figure& figure, std::size_t cell) {
+  const auto require = [&](const Figure& figure, std::size_t cell) {
     if (std::ranges::all_of(rows, [&](const Row& row) { return row.cells[cell].empty(); }))
-      config::fail({tuning_.file, 0, 0}, key, figure.key, "a figure that the runs have",
+      config::fail({figure.setting, 0, 0}, "", figure.key, "a figure that the runs have",
                    "another key of a run's summary.json");
   };
-  for (std::size_t i = 0; i < goals_.size(); ++i) {
-    const Goal& goal = tuning_.goals.goals[i];
-    require(goal.maximize ? "maximize" : "minimize", goal.figure, goals_[i]);
-  }
+  for (std::size_t i = 0; i < goals_.size(); ++i) require(tuning_.goals.goals[i].figure, goals_[i]);
   for (std::size_t i = 0; i < limits_.size(); ++i)
-    require("where", tuning_.goals.limits[i].figure, limits_[i]);
+    require(tuning_.goals.limits[i].figure, limits_[i]);
 }
 
 std::vector<Candidate> Generation::evaluated(const std::vector<Row>& rows) const {

@@ -16,6 +16,7 @@
 #include "sinew/tune/optimizer/module/methods.h"
 #include "sinew/tune/optimizer/tuning.fields.h"
 #include "sinew/units/quantity.h"
+#include "sinew/units/shell.h"
 
 namespace sinew::tune {
 
@@ -68,7 +69,8 @@ namespace {
 
 config::Location where(const TuningFile& file, const char* key) {
   const config::Origin* origin = config::find_origin(file.origins, key);
-  return origin ? origin->where : config::Location{};
+  if (origin && origin->where.line > 0) return origin->where;
+  return {config::find_origin(file.origins, "title")->where.file, 0, 0};  // it lacks the key
 }
 
 [[noreturn]] void refuse(const TuningFile& file, const char* key, std::string found,
@@ -89,7 +91,7 @@ void add_goals(const TuningFile& file, const std::vector<std::string>& texts, co
 
 // Parses "key < 5 deg"; the figure is shown in degrees.
 Limit limit_of(const TuningFile& file, const std::string& text) {
-  const Condition condition = parse_condition(text, place_of(file.places, "where", text));
+  Condition condition = parse_condition(text, place_of(file.places, "where", text));
   const std::string si = analysis::unit_of_key(condition.key);
   const std::size_t number = text.find_first_of("0123456789.", text.find_first_of("<>"));
   const std::size_t end = text.find_first_not_of("0123456789.eE+-", number);
@@ -99,6 +101,7 @@ Limit limit_of(const TuningFile& file, const std::string& text) {
             .limit = condition.limit,
             .text = text,
             .si = condition.limit};
+  out.figure.setting = std::move(condition.setting);
   if (out.figure.unit != si) out.limit = units::convert(condition.limit, si, out.figure.unit);
   return out;
 }
@@ -246,9 +249,11 @@ void add_start(Tuning& tuning) {
 
 TuningFile load_tuning_file(const std::string& path) {
   const config::Node root = config::compose(path);
-  if (config::format_kind(root) != "tuning")
-    config::fail({path, 0, 0}, "format", config::in_quotes(config::format_kind(root)),
-                 "\"sinew.tuning/1\"");
+  if (const std::string_view kind = config::format_kind(root); kind != "tuning")
+    config::fail({path, 0, 0}, "format", config::in_quotes(kind), "\"sinew.tuning/1\"",
+                 kind == "plan"         ? "sinew sweep " + units::shell_word(path)
+                 : kind == "experiment" ? "sinew new tuning NAME --of " + units::shell_word(path)
+                                        : "");
   TuningFile out;
   config::Reader reader(root);
   std::string format;
