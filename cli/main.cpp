@@ -2,6 +2,8 @@
 //
 // Results go to stdout, everything else to stderr. Exit codes: 0 done, 1 failed, 2 wrong usage;
 // a wrong value of an option is wrong usage.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -25,16 +27,16 @@ namespace {
 using namespace sinew;
 using namespace sinew::cli;
 
-// Returns the error's text. Where a robot was given in place of an experiment, it names the command
-// that makes an experiment from a robot; the library has no commands.
+// Returns the error's text. For a robot in place of an experiment, or an experiment in place of a
+// tuning, it names the command that makes one from the other; the library has no commands.
 std::string message_of(const std::exception& e) {
   const auto* file = dynamic_cast<const config::Error*>(&e);
   if (!file || file->problems().size() != 1) return e.what();
   config::Problem p = file->problems()[0];
-  if (p.key != "format" || p.found != config::in_quotes("robot") ||
-      p.expected != config::in_quotes(config::newest_format("experiment")))
-    return e.what();
-  p.try_this = "sinew new experiment NAME --of " + units::shell_word(p.where.file);
+  for (const auto& [from, to] : {std::pair{"robot", "experiment"}, {"experiment", "tuning"}})
+    if (p.key == "format" && p.found == config::in_quotes(from) &&
+        p.expected == config::in_quotes(config::newest_format(to)))
+      p.try_this = fmt::format("sinew new {} NAME --of {}", to, units::shell_word(p.where.file));
   return config::to_text(p);
 }
 

@@ -31,7 +31,7 @@ struct Study {
   int seeds = 0;  // 0: the experiment's own seed
   bool allow_unreachable = false;
   std::string units;   // for figures without a unit (units/shown.h); empty: SI, or as reported
-  Places places = {};  // of a plan's values
+  Places places = {};  // places of a plan's values, for messages
 };
 
 // Settings given in addition to a plan: lists are appended to the plan's, the others override it if

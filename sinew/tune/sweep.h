@@ -81,7 +81,7 @@ struct Sweep {
   std::vector<Figure> report;
   std::optional<Search> largest;
   bool allow_unreachable = false;
-  Places places = {};  // of settings in a plan or a tuning, for messages
+  Places places = {};  // places of a file's settings, for messages
 };
 
 // A row of a sweep's table.

@@ -250,10 +250,9 @@ void add_start(Tuning& tuning) {
 TuningFile load_tuning_file(const std::string& path) {
   const config::Node root = config::compose(path);
   if (const std::string_view kind = config::format_kind(root); kind != "tuning")
-    config::fail({path, 0, 0}, "format", config::in_quotes(kind), "\"sinew.tuning/1\"",
-                 kind == "plan"         ? "sinew sweep " + units::shell_word(path)
-                 : kind == "experiment" ? "sinew new tuning NAME --of " + units::shell_word(path)
-                                        : "");
+    config::fail({path, 0, 0}, "format", config::in_quotes(kind),
+                 config::in_quotes(config::newest_format("tuning")),
+                 kind == "plan" ? "sinew sweep " + units::shell_word(path) : "");
   TuningFile out;
   config::Reader reader(root);
   std::string format;

@@ -74,7 +74,7 @@ struct TuningFile {
   int seeds = 0, draws = 0, spread_seed = 1;
   bool allow_unreachable = false;
   config::Origins origins = {};  // origins of its keys, for messages
-  Places places = {};            // of its values
+  Places places = {};            // places of its values, for messages
 };
 
 // The file, parsed.
