@@ -169,6 +169,7 @@ void add_wrong_number(const CLI::App& command, std::string_view message, Problem
     if (!takes_value(*option))
       return add(out, name, "a value behind it", "the option alone: it is on or off");
     if (option->count() == 0) return add(out, name, "nothing behind it", meaning_of(*option));
+    if (most == 1) return add(out, name, fmt::format("it {} times", option->count()), "it once");
     const bool any = most >= CLI::detail::expected_max_vector_size;
     return add(out, name, std::to_string(option->count()),
                any             ? fmt::format("at least {}", least)

@@ -86,7 +86,7 @@ AirUses of_run(const fs::path& summary_file) {
   std::ifstream in(summary_file);
   Json summary;
   if (!in || !Json::parse(in, summary) || !summary.is_object())
-    config::refuse_setting("use", summary_file.string(), "the summary of a run",
+    config::refuse_setting("use", (in ? "" : "no ") + summary_file.string(), "the summary of a run",
                            "the folder that sinew run wrote");
   AirFigures figures;
   figures.each([&](const char* key, double& value) { value = member(summary, key); });
