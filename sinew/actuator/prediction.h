@@ -50,6 +50,7 @@ struct Neighbours {
   double above = std::numeric_limits<double>::infinity();
 };
 
+// Returns the neighbours of a length; both are the length itself if it is one of them.
 inline Neighbours neighbours_of(const std::vector<double>& lengths, double length) {
   Neighbours out;
   for (const double l : lengths) {
