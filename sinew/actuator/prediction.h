@@ -7,7 +7,7 @@
 //       measured length, halfway in the widest gap between two, a fifth of the range beyond the
 //       lengths, and a fifth of the range beyond the pressures [N]
 //   a  harmonic mean of the distances to the measured lengths on either side, relative to half the
-//      widest gap, which it has in the middle of that gap; 0 beyond the ends [-]
+//      widest gap: 1 in the middle of that gap, 0 at the measured lengths and beyond the ends [-]
 //   b, F  share of the force, per_force_68 or per_force_95 [-], and the law's force [N]
 //   d, e  distance beyond the lengths and the pressures, relative to their ranges [-]
 //

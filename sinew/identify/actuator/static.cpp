@@ -394,20 +394,29 @@ std::size_t tests_of_form(const Points& points) {
 }
 
 // Gives laws without a bladder that saturates a reason not to be chosen, if a law with one may be
-// chosen. Returns whether there is one.
+// chosen and fits about as well as the best. Returns whether there is one.
 bool prefer_saturating(Report& report) {
+  constexpr double as_well = 2;  // times the smallest error
   std::set<std::string_view> names;
   for (const StaticModel& model : static_models())
     if (std::ranges::find(model.free_parameters, FreeParameter::saturating_tension) !=
         model.free_parameters.end())
       names.insert(model.name);
-  const bool found = std::ranges::any_of(report.fits, [&](const Fit& fit) {
-    return fit.refused.empty() && fit.not_chosen.empty() && names.contains(fit.model);
-  });
-  for (Fit& fit : report.fits)
-    if (found && fit.refused.empty() && fit.not_chosen.empty() && !names.contains(fit.model))
-      fit.not_chosen = "its form needs a test at two lengths between the ends";
-  return found;
+  std::vector<Fit*> others;
+  double smallest = std::numeric_limits<double>::infinity(), saturating = smallest;
+  for (Fit& fit : report.fits) {
+    if (!fit.refused.empty() || !fit.not_chosen.empty()) continue;
+    const bool saturates = names.contains(fit.model);
+    const double error = choice_error(report, fit);
+    smallest = std::min(smallest, error);
+    if (saturates)
+      saturating = std::min(saturating, error);
+    else
+      others.push_back(&fit);
+  }
+  if (!(saturating <= as_well * smallest)) return false;
+  for (Fit* fit : others) fit->not_chosen = "its form needs a test at two lengths between the ends";
+  return true;
 }
 
 StaticSplit split_by(const Points& points, HoldOut hold_out, Report& report) {
@@ -635,6 +644,11 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   const std::size_t tests = tests_of_form(s.fitted);
   const bool is_prior = tests < 2 && prefer_saturating(report);
   conclude(report, is_prior && tests == 0 ? 0 : 0.1);
+  if (is_prior)
+    report.rule =
+        "of the laws whose bladder saturates, because fewer than two lengths are between "
+        "the ends, " +
+        report.rule;
   if (options.model.empty())
     refuse_unexplained(
         report, 15,

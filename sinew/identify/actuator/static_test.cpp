@@ -255,6 +255,22 @@ TEST(Static, TheLawThatMadeTheDataIsSimpleEnough) {
   EXPECT_LT(found.report.best().cross_validated->rmse_percent, 0.6);
 }
 
+// With fewer than two lengths between the ends a law whose bladder saturates is chosen, but only if
+// it describes the data about as well as the best law.
+TEST(Static, WithFewLengthsASaturatingBladderMustDescribeTheData) {
+  StaticSetting without = truth();
+  without.actuator.bladder = {};
+  without.actuator.effectiveness = {.c1 = 3e-6};
+  for (const std::vector<double>& few : {std::vector{0.0, 0.06, 0.14}, {0.0, 0.14}}) {
+    const Noise noise{.force = 1};
+    const Report simple = identify(measured(without, 11, noise, few)).report;
+    EXPECT_FALSE(simple.best().model.starts_with("saturating")) << simple.rule;
+    const Report saturating = identify(measured(truth(), 11, noise, few)).report;
+    EXPECT_TRUE(saturating.best().model.starts_with("saturating")) << saturating.rule;
+    EXPECT_TRUE(saturating.rule.starts_with("of the laws whose bladder saturates"));
+  }
+}
+
 TEST(Static, ASaturatingBladderIsFound) {
   const StaticResult found = identify(measured(truth(), 10, real_noise(), many));
   EXPECT_TRUE(found.report.best().model.starts_with("saturating")) << found.report.rule;

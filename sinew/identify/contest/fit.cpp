@@ -101,6 +101,8 @@ std::string runners_up(const std::vector<const Fit*>& fits, const Fit& chosen, B
 
 }  // namespace
 
+double choice_error(const Report& report, const Fit& fit) { return error_of(fit, measure(report)); }
+
 void choose(Report& report, double tolerance, double negligible) {
   const By by = measure(report);
   std::vector<const Fit*> fits = eligible(report);

@@ -102,6 +102,9 @@ void choose(Report& report, double tolerance = 0.1, double negligible = 0);
 // if the rows have groups and the method has no errors of its own.
 void conclude(Report& report, double tolerance = 0.1, double negligible = 0);
 
+// Returns the error by which choose() compares a fit that may be chosen [%].
+double choice_error(const Report& report, const Fit& fit);
+
 // Returns the names of the chosen law's parameters that the data do not pin.
 std::vector<std::string> not_pinned(const Report& report);
 
