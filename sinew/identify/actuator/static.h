@@ -12,9 +12,9 @@
 //
 // One length between the ends of one muscle, or none, does not test the form of a law over the
 // length. Then a law whose bladder saturates is chosen, if one fits about as well as the best: on
-// the muscles that were measured so far these laws are nearest to lengths that were left out. Without any length between
-// the ends it is the one with the smallest error: pressures do not show which parameter the
-// lengths between them need.
+// the muscles that were measured so far these laws are nearest to lengths that were left out.
+// Without any length between the ends it is the one with the smallest error: pressures do not show
+// which parameter the lengths between them need.
 #pragma once
 
 #include <optional>
