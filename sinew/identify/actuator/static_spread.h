@@ -31,9 +31,8 @@
 //
 //   eps_d  2 a b/(a + b) as a share of the rest length; a and b are the distances of the measured
 //      lengths on either side [-]
-//   sigma_F  interpolated between these two lengths by its square. At the point itself it is
-//   larger,
-//      by the square D. The error of the form, kappa_d F_max sqrt(eps_d), is at least sqrt(D)/3
+//   sigma_F  interpolated between these two lengths by its square. That of the point itself is
+//      larger by D, and kappa_d F_max sqrt(eps_d) is taken as sqrt(D)/3 at least
 //   F_max  largest force [N]
 //   e_k^2  mean square of the error at the k-th of n_L lengths that were left out, less that at
 //      pressures that were left out, in shares of F_max [-]; the mean is no less than 0
