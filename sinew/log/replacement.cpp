@@ -28,16 +28,6 @@ std::optional<int> own_descriptor(const fs::path& file) {
   return number;
 }
 
-// Follows symbolic links, also to a file that does not exist.
-fs::path followed(fs::path file) {
-  std::error_code none;
-  for (int i = 0; i < 40 && !own_descriptor(file) && fs::is_symlink(file, none); ++i) {
-    const fs::path to = fs::read_symlink(file, none);
-    file = to.is_absolute() ? to : file.parent_path() / to;
-  }
-  return file;
-}
-
 bool same_file(int descriptor, const fs::path& name) {
   struct stat a {
   }, b{};
@@ -62,6 +52,15 @@ std::string writer_of(const fs::path& file) {
 }
 
 }  // namespace
+
+fs::path followed(fs::path file) {
+  std::error_code none;
+  for (int i = 0; i < 40 && !own_descriptor(file) && fs::is_symlink(file, none); ++i) {
+    const fs::path to = fs::read_symlink(file, none);
+    file = to.is_absolute() ? to : file.parent_path() / to;
+  }
+  return file;
+}
 
 std::string hidden_name(std::string_view name) {
   return std::string(".").append(name).append(".sinew");

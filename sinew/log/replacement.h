@@ -58,6 +58,9 @@ class Replacement {
   bool kept_ = false;
 };
 
+// Returns the path to which symbolic links lead, also if there is no file yet.
+std::filesystem::path followed(std::filesystem::path file);
+
 // Returns the name under which a file is written until it is complete.
 std::string hidden_name(std::string_view name);
 

@@ -41,7 +41,7 @@ void refuse_to_overwrite(const fs::path& file, bool force, const std::vector<fs:
 }
 
 void require_folder_of(const fs::path& file) {
-  const fs::path folder = file.parent_path();
+  const fs::path folder = log::followed(file).parent_path();
   if (!folder.empty() && !fs::is_directory(folder))
     refuse(file, "no folder " + folder.string(), "one that exists",
            "mkdir -p " + units::shell_word(folder.string()));
