@@ -117,13 +117,11 @@ bool lacks_condition(const Search& search, const std::vector<std::string>& lacks
 
 // Throws config::Error for a figure or a condition whose key is probably misspelt.
 void refuse_misspelt(const Sweep& s, const analysis::Summary& summary) {
-  const auto check = [&](const std::string& key, const std::string& setting) {
-    if (const std::string near = analysis::nearest_key(key, summary); !near.empty())
-      refuse(setting, key, "a key of summary.json", config::in_quotes(near));
-  };
-  for (const Figure& figure : s.report) check(figure.key, figure.setting);
+  for (const Figure& figure : s.report)
+    analysis::refuse_misspelt(figure.key, summary, figure.setting);
   if (s.largest)
-    for (const Condition& condition : s.largest->where) check(condition.key, condition.setting);
+    for (const Condition& condition : s.largest->where)
+      analysis::refuse_misspelt(condition.key, summary, condition.setting);
 }
 
 void add_report(const Sweep& s, const RunResult& result, std::vector<std::string>& cells) {

@@ -75,11 +75,10 @@ std::string nearest_key(std::string_view key, const Summary& summary) {
   return std::string(config::closest(key, keys));
 }
 
-void refuse_misspelt(const std::vector<std::string>& keys, const Summary& summary) {
-  for (const std::string& key : keys)
-    if (const std::string near = nearest_key(key, summary); !near.empty())
-      config::fail({key, 0, 0}, "", "no such key in the summary", "a key of summary.json",
-                   config::in_quotes(near));
+void refuse_misspelt(const std::string& key, const Summary& summary, const std::string& setting) {
+  if (const std::string near = nearest_key(key, summary); !near.empty())
+    config::fail({setting, 0, 0}, "", config::in_quotes(key), "a key of summary.json",
+                 config::in_quotes(near));
 }
 
 namespace {

@@ -133,9 +133,9 @@ class Summary {
 // Returns the most similar key of the summary; empty if the key exists or none is similar.
 std::string nearest_key(std::string_view key, const Summary&);
 
-// Throws config::Error for a key that does not exist but is similar to one of the summary, and
-// therefore probably misspelt.
-void refuse_misspelt(const std::vector<std::string>& keys, const Summary&);
+// Throws config::Error if the key does not exist but is similar to one of the summary, and
+// therefore probably misspelt; the error begins with `setting`.
+void refuse_misspelt(const std::string& key, const Summary&, const std::string& setting);
 
 // Numbers that depend on the computer of the run, and warnings of events that are not in the log.
 struct Host {

@@ -277,8 +277,8 @@ std::string Ensemble::plan_of(const Member& member) const {
 }
 
 // Returns the figures of a run: the wanted ones from the topics that it recorded, or all of them.
-// If these topics are too few, it is run again, and later runs record more: those that show that no
-// muscle took air are recorded after the first such run.
+// If these topics are too few, it is run again, and later runs record more. The topics that show
+// whether a muscle took air are recorded by all runs after the first one that took none.
 analysis::Summary Ensemble::figures_of(const Member& member, const Outcome& outcome,
                                        bool& no_air) const {
   const analysis::Machine& machine = member.machine;
@@ -310,7 +310,7 @@ analysis::Summary Ensemble::figures_of(const Member& member, const Outcome& outc
 // Checks the wanted figures with those of a whole run.
 void Ensemble::check_figures(const analysis::Summary& whole) const {
   try {
-    analysis::refuse_misspelt(figures_, whole);
+    for (const std::string& key : figures_) analysis::refuse_misspelt(key, whole, "figures");
   } catch (const config::Error&) {
     const std::lock_guard lock(mutex_);
     misspelt_ = std::current_exception();
