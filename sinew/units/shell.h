@@ -12,9 +12,11 @@ inline bool is_plain_word(const std::string& word) {
              "-_./:=@%+,") == word.npos;
 }
 
-// Returns the word as a shell reads it, in quotes where necessary.
+// Returns the path as one word of a command, in quotes where necessary, and with "./" where it
+// would be taken for an option.
 inline std::string shell_word(const std::string& word) {
-  if (is_plain_word(word)) return word;
+  if (word.starts_with('-')) return shell_word("./" + word);
+  if (!word.empty() && is_plain_word(word)) return word;
   std::string out = "'";
   for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
