@@ -16,7 +16,8 @@ class Statement;
 // Every member function throws log::Error with the name of the file, the fault and the remedy.
 class Database {
  public:
-  // read: others may write meanwhile; no row is changed, and no file is left.
+  // read: others may write meanwhile, and no row is changed. FILE-wal and FILE-shm may be left if
+  // the folder may be written to and the file may not.
   enum class Use { write, read };
 
   // Opens the file; to write, creates it if it is missing.
