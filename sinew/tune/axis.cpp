@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sinew/config/changes.h"
@@ -81,9 +82,12 @@ void refuse_equal_ends(const std::vector<double>& ends, std::string_view text, c
 }
 
 void add_range(Axis& axis, std::string_view text, std::string_view setting) {
-  const auto last = number_in(trimmed(text.substr(text.rfind(':') + 1)));
-  const std::string unit = last && !last->unit.empty() ? fmt::format(" {}", last->unit) : "";
-  const Form form{setting, 3, "from:to:how many", fmt::format("\"{}=0:1:5{}\"", axis.key, unit)};
+  const std::string_view last = trimmed(text.substr(text.rfind(':') + 1));
+  const auto number = number_in(last);
+  const std::string_view unit =
+      number ? number->unit : last.substr(std::min(last.find(' '), last.size()));
+  const std::string example = fmt::format("{}=0:1:5 {}", axis.key, trimmed(unit));
+  const Form form{setting, 3, "from:to:how many", config::in_quotes(trimmed(example))};
   const std::vector<double> parts = between_colons(axis, text, form);
   const double from = parts[0], to = parts[1], n = parts[2];
   if (n != std::floor(n) || n < 2 || n > most_values)
@@ -98,7 +102,7 @@ void add_places(const config::Node& node, const std::string& key, Places& out) {
     for (const config::Node& child : node.children)
       add_places(child, child.key.empty() ? key : child.key, out);
   } else {
-    // The text is as the reader of a plan has it.
+    // A plan's reader replaces old keys by present ones, and its texts are searched here.
     out.try_emplace({key, config::with_present_key(config::written(node))}, node.where);
   }
 }

@@ -1,6 +1,7 @@
 #include "sinew/tune/study.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -134,12 +135,19 @@ Sweep words_of(const Study& study) {
   return out;
 }
 
-// Gives the problem of a setting the place where a plan or a tuning has it; the last one applies.
+// Returns whether the outer key is the key itself, or a table or list that contains it.
+bool contains(const std::string& outer, const std::string& key) {
+  return key.starts_with(outer) &&
+         (key.size() == outer.size() || key[outer.size()] == '.' || key[outer.size()] == '[');
+}
+
+// Changes the problem's place to that of its setting in a plan or a tuning, if it is there. If
+// several settings have the key, the last one applies.
 void find_place(const Sweep& s, const std::vector<std::string>& sets, config::Problem& problem) {
   const auto set = std::find_if(sets.rbegin(), sets.rend(), [&](const std::string& text) {
     const std::string key(trimmed(std::string_view(text).substr(0, text.find('='))));
     return problem.key.empty() ? problem.found == config::in_quotes(text)
-                               : (problem.key + '.').starts_with(key + '.');
+                               : contains(problem.key, key) || contains(key, problem.key);
   });
   if (set == sets.rend()) return;
   const auto place = s.places.find({"set", *set});
@@ -188,12 +196,14 @@ const std::string& first_text(const Axis& axis) { return axis.values.front().tex
                      config::closest_in_quotes(axis.key, known)});
 }
 
-// If one of an experiment's problems is that of an axis, or of the list with its element, throws
-// it.
+// If one of an experiment's problems is that of an axis, of the list with its element, or of a
+// table that the axis creates, throws it.
 void throw_problem_of(const Axis& axis, const config::Error& e) {
   for (const config::Problem& problem : e.problems())
-    if (problem.key == axis.key || axis.key.starts_with(problem.key + '['))
-      refuse_axis(axis, {problem.found, problem.expected, problem.try_this});
+    if (problem.key == axis.key || axis.key.starts_with(problem.key + '[') ||
+        (problem.where.file == "--set" && axis.key.starts_with(problem.key + '.')))
+      config::fail({axis.setting, 0, 0}, "", problem.key + ": " + problem.found, problem.expected,
+                   problem.try_this);
 }
 
 // Returns the experiment with a value of an axis. Throws config::Error if it is refused.
@@ -208,13 +218,24 @@ experiment::Experiment with_value(const Sweep& s, const Axis& axis, const std::s
   }
 }
 
-// Checks the words, and the least and the greatest number, each alone. Other faults of the
-// experiment are ignored, since another axis may correct them.
+// Returns whether a word may be allowed by a word of another axis, such as the actuator of another
+// robot.
+bool depends_on_others(const Sweep& s, const Axis& axis) {
+  const auto has_words = [&](const Axis& other) {
+    return other.key != axis.key &&
+           std::ranges::any_of(other.values, [](const Value& v) { return !v.number; });
+  };
+  return axis.key != "robot" && std::ranges::any_of(s.axes, has_words);
+}
+
+// Checks the least and the greatest number, each alone, and the words unless they depend on other
+// axes. Other faults of the experiment are ignored, since another axis may correct them.
 void check_without_unit(const Sweep& s, const Axis& axis) {
+  const bool skips_words = depends_on_others(s, axis);
   const auto [least, greatest] = std::ranges::minmax_element(
       axis.values, {}, [](const Value& v) { return v.number.value_or(0); });
   for (const Value& value : axis.values) {
-    if (value.number && &value != &*least && &value != &*greatest) continue;
+    if (value.number ? &value != &*least && &value != &*greatest : skips_words) continue;
     std::vector<std::string> sets = s.sets;
     sets.push_back(axis.set(value));
     try {
@@ -241,14 +262,21 @@ void check_element(const Sweep& s, const Axis& axis) {
     (void)with_value(s, axis, axis.set(*value));
 }
 
+void check_experiments(const Sweep& s, const Axis& axis) {
+  for (const Value& value : axis.values) {
+    const std::string file = experiment_path(s, value.text);
+    if (!std::filesystem::exists(file))
+      refuse_axis(axis, {config::in_quotes(value.text), "a file that exists",
+                         "the path: looked for " + file});
+    (void)built(s, file, s.sets);
+  }
+}
+
 void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins,
                 double atmosphere) {
   if (axis.key == "robot") return check_without_unit(s, axis);
   if (axis.key.ends_with(']')) return check_element(s, axis);
-  if (axis.key == "experiment") {
-    for (const Value& value : axis.values) (void)built(s, experiment_path(s, value.text), s.sets);
-    return;
-  }
+  if (axis.key == "experiment") return check_experiments(s, axis);
   if (const config::Origin* origin = config::find_origin(origins, axis.key))
     return check_values(s, axis, *origin, atmosphere);
 
@@ -263,9 +291,12 @@ void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins
 // Checks also a value between the ends, which fails if the key takes whole numbers.
 void check_range(const Sweep& s, const Range& range, const config::Origins& origins,
                  double atmosphere) {
-  if (range.axis.key == "robot" || range.axis.key == "experiment")
+  if (range.axis.key == "robot" || range.axis.key == "experiment") {
+    if (s.sample->given_later || !s.sample->given.empty())  // of a command without vary
+      refuse_axis(range.axis, {"a range", "a key that has numbers", ""});
     refuse_axis(range.axis, {"a range", "a list of files, in vary",
                              "vary=\"" + range.axis.key + "=a.toml,b.toml\""});
+  }
   check_axis(s, range.axis, origins, atmosphere);
   const Axis between{range.axis.key, range.axis.unit, {range.at(0.4321)}, range.axis.setting};
   check_axis(s, between, origins, atmosphere);
@@ -310,11 +341,11 @@ void check(const Sweep& s) {
   for (const Case& one : s.cases) check_case(s, one);
   for (const Axis& axis : s.axes) check_axis(s, axis, origins, atmosphere);
   if (!s.largest) return;
-  check_axis(s, s.largest->axis, origins, atmosphere);
   for (const Value& value : s.largest->axis.values)
     if (!value.number)
       refuse_axis(s.largest->axis,
                   {config::in_quotes(value.text), "numbers, to be halved between", ""});
+  check_axis(s, s.largest->axis, origins, atmosphere);
 }
 
 }  // namespace sinew::tune

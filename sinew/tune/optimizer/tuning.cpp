@@ -67,10 +67,13 @@ void OptimizerMethod::tell(const std::vector<double>& costs) {
 
 namespace {
 
+// Returns the place of the key, the file alone if it lacks the key, and no place if the tuning was
+// not read from a file.
 config::Location where(const TuningFile& file, const char* key) {
   const config::Origin* origin = config::find_origin(file.origins, key);
   if (origin && origin->where.line > 0) return origin->where;
-  return {config::find_origin(file.origins, "title")->where.file, 0, 0};  // it lacks the key
+  const config::Origin* title = config::find_origin(file.origins, "title");
+  return {title ? title->where.file : "", 0, 0};
 }
 
 [[noreturn]] void refuse(const TuningFile& file, const char* key, std::string found,

@@ -95,7 +95,19 @@ TEST_F(TuningTest, ReportsWhereAndWhatIsWrong) {
   refuses("generations = 4", "[[case]]\nname = \"a\"\nset = [\"sequence.repaet=2\"]", "repeat");
   refuses("generations = 4", "[[case]]\nname = \"a\"\n[[case]]\nname = \"a\"",
           "\"a\" twice; expected a name of its own");
+  refuses("tune = [\"joint.lever.angle_gain=0.01:0.3 %/count log\"]", "tune = [\"robot=1:2\"]",
+          "found robot: a range; expected a key that has numbers");
   refuses("sinew.tuning/1", "sinew.plan/1", "sinew.tuning/1");
+}
+
+// A tuning made by a program has no file that a fault could name.
+TEST(TuningInCode, IsRefusedWithoutAPlace) {
+  try {
+    (void)tuning_of("", TuningFile{});
+    FAIL();
+  } catch (const config::Error& e) {
+    EXPECT_EQ(std::string(e.what()).find("maximize: found no goal"), 0U) << e.what();
+  }
 }
 
 }  // namespace
