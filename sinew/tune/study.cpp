@@ -288,11 +288,13 @@ void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins
   check_values(s, axis, *origin, atmosphere);
 }
 
-// Checks also a value between the ends, which fails if the key takes whole numbers.
+// Checks also a value between the ends, which fails if the key takes whole numbers. A range of
+// files is refused with the advice of vary, unless its numbers are given by a tuning or a
+// sensitivity study, which have no vary.
 void check_range(const Sweep& s, const Range& range, const config::Origins& origins,
                  double atmosphere) {
   if (range.axis.key == "robot" || range.axis.key == "experiment") {
-    if (s.sample->given_later || !s.sample->given.empty())  // of a command without vary
+    if (s.sample->given_later || !s.sample->given.empty())
       refuse_axis(range.axis, {"a range", "a key that has numbers", ""});
     refuse_axis(range.axis, {"a range", "a list of files, in vary",
                              "vary=\"" + range.axis.key + "=a.toml,b.toml\""});
