@@ -92,13 +92,13 @@ void add_sole(Figures&);  // the discs of a leg's foot
 void add_phases(Figures&);
 void add_supervision(Figures&);
 
-// Adds all of these for a whole run, those of its legs from the log and the derived series. The
-// topics that the legs' figures read are added to `read`.
+// Adds all figures of a run of a test stand.
+void add_stand(Figures&);
+
+// Adds all of these for a whole run, those of a robot's legs from the log and the derived series.
+// The topics that the legs' figures read are added to `read`.
 void add_figures(Figures&, const signals::Table& table, const signals::Table& derived,
                  TopicNames* read = nullptr);
-
-// Returns the figures of a run of a test stand that its log has the channels for.
-Summary summarize_stand(const signals::Table& table, const Machine& machine);
 
 // Adds legs.<name>.* of each leg: joints, muscles, passiveness, foot, ground reaction, air and
 // phases as those of a machine with one leg, and the load of its foot. The topics that are read are

@@ -22,10 +22,9 @@ Summary Selection::add(const signals::Table& table, const signals::Table& derive
                        const Machine& machine, TopicNames& read) const {
   const Record record(table, machine, &derived, "", &read);
   Summary summary;
-  if (record.rows() == 0) return summary;
   Figures figures{machine, record, summary, &keys_};
   add_figures(figures, table, derived, &read);
-  add_supervision(figures);
+  if (record.rows() > 0) add_supervision(figures);
   return summary;
 }
 

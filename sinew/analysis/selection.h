@@ -20,8 +20,8 @@ namespace sinew::analysis {
 
 class Selection {
  public:
-  // Finds the topics that the figures of these keys are computed from, by the table of a robot's
-  // whole run. A key that its summary lacks may appear in other runs, and the other way round.
+  // Finds the topics that the figures of these keys are computed from, by the table of a whole
+  // run. A key that its summary lacks may appear in other runs, and the other way round.
   Selection(std::vector<std::string> keys, const signals::Table& table, const Machine& machine);
 
   // Returns the topics of the log that figures() needs, and those of series derived from them.

@@ -1,6 +1,7 @@
 #include "sinew/analysis/summary.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace sinew::analysis {
 
 void add_figures(Figures& figures, const signals::Table& table, const signals::Table& derived,
                  TopicNames* read) {
+  if (figures.machine.stand) return add_stand(figures);
+  if (figures.record.rows() == 0) return;
   add_run(figures);
   add_trolley(figures);
   const bool one_leg = figures.machine.robot.legs.empty();
@@ -42,22 +45,25 @@ bool is_simulated(const signals::Table& table) {
   });
 }
 
+// Returns the time of the last row, or without rows that of the last sample [s].
+double last_time(const Analysis& a) {
+  if (a.record.rows() > 0) return a.record.time(a.record.rows() - 1);
+  std::int64_t last = -1;
+  for (const signals::Series& series : a.table.series)
+    if (!series.time_ns.empty()) last = std::max(last, series.time_ns.back());
+  return static_cast<double>(last) / 1e9;
+}
+
 Summary summary_of(const Analysis& a) {
   const bool whole = a.ended.empty();
   Summary summary;
-  if (a.machine.stand && whole) {
-    summary = summarize_stand(a.table, a.machine);
-  } else {
-    summary.title = a.machine.title;
-    if (whole) summary.reproduces = a.machine.reproduces;
-    summary.warnings = texts(a.warnings);
-    if (a.record.rows() > 0) {
-      summary.faults = begun_by(a.machine.faults, a.record.time(a.record.rows() - 1));
-      Figures figures{a.machine, a.record, summary};
-      if (whole) add_figures(figures, a.table, a.derived);
-      add_supervision(figures);
-    }
-  }
+  summary.title = a.machine.title;
+  if (whole) summary.reproduces = a.machine.reproduces;
+  summary.warnings = texts(a.warnings);
+  summary.faults = begun_by(a.machine.faults, last_time(a));
+  Figures figures{a.machine, a.record, summary};
+  if (whole) add_figures(figures, a.table, a.derived);
+  if (a.record.rows() > 0) add_supervision(figures);
   if (whole && a.table.complete && is_simulated(a.table)) summary.state_hash = state_hash(a.table);
   summary.cut_off = !a.table.complete;
   return summary;

@@ -55,7 +55,6 @@ struct Library {
   Status (*cuMemFree_v2)(Address);
   Status (*cuMemcpyHtoD_v2)(Address, const void*, std::size_t);
   Status (*cuMemcpyDtoH_v2)(void*, Address, std::size_t);
-  Status (*cuMemsetD8_v2)(Address, unsigned char, std::size_t);
   Status (*cuLaunchKernel)(void*, unsigned, unsigned, unsigned, unsigned, unsigned, unsigned,
                            unsigned, void*, void**, void**);
 };
@@ -93,7 +92,6 @@ Library open_library() {
   find("cuMemFree_v2", out.cuMemFree_v2);
   find("cuMemcpyHtoD_v2", out.cuMemcpyHtoD_v2);
   find("cuMemcpyDtoH_v2", out.cuMemcpyDtoH_v2);
-  find("cuMemsetD8_v2", out.cuMemsetD8_v2);
   find("cuLaunchKernel", out.cuLaunchKernel);
   return out;
 }
@@ -377,13 +375,6 @@ void Buffer::read(std::span<std::byte> data) const {
   must(Current(*context_).call(library().cuMemcpyDtoH_v2, static_cast<void*>(data.data()), address_,
                                data.size()),
        "cuMemcpyDtoH");
-}
-
-void Buffer::clear() {
-  if (size_ == 0) return;
-  must(Current(*context_).call(library().cuMemsetD8_v2, address_, static_cast<unsigned char>(0),
-                               size_),
-       "cuMemsetD8");
 }
 
 }  // namespace sinew::card

@@ -84,9 +84,6 @@ class Buffer {
   void write(std::span<const std::byte> data);
   void read(std::span<std::byte> data) const;
 
-  // Sets all bytes to zero.
-  void clear();
-
   // Returns the buffer as a parameter of Program::launch.
   void* parameter() { return &address_; }
 

@@ -65,7 +65,6 @@ std::vector<double> sums(Program& program, std::vector<double> a, std::vector<do
   Buffer left(program, bytes), right(program, bytes), sum(program, bytes);
   left.write(std::as_bytes(std::span(a)));
   right.write(std::as_bytes(std::span(b)));
-  sum.clear();
   void* parameters[] = {left.parameter(), right.parameter(), sum.parameter(), &count};
   program.launch((static_cast<unsigned>(count) + 31) / 32, 32, parameters);
   program.wait();
@@ -77,16 +76,6 @@ std::vector<double> sums(Program& program, std::vector<double> a, std::vector<do
 TEST_F(Card, AKernelReadsAndWritesBuffers) {
   Program program(0, text, "add");
   EXPECT_THAT(sums(program, {1, 2, 3}, {10, 20, 30}), ElementsAre(11, 22, 33));
-}
-
-TEST_F(Card, AClearedBufferIsZero) {
-  const Program program(0, text, "add");
-  Buffer buffer(program, 3);
-  std::vector<std::byte> bytes(3, std::byte{7});
-  buffer.write(bytes);
-  buffer.clear();
-  buffer.read(bytes);
-  EXPECT_THAT(bytes, ElementsAre(std::byte{0}, std::byte{0}, std::byte{0}));
 }
 
 TEST_F(Card, EachUsableCardIsListedWithItsNumber) {

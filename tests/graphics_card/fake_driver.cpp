@@ -266,13 +266,6 @@ int cuMemcpyDtoH_v2(void* to, unsigned long long from, std::size_t size) {
   return 0;
 }
 
-int cuMemsetD8_v2(unsigned long long to, unsigned char value, std::size_t size) {
-  const std::lock_guard lock(mutex);
-  if (!here() || !is_within(to, size)) return invalid_value;
-  std::memset(reinterpret_cast<void*>(to), value, size);
-  return 0;
-}
-
 int cuLaunchKernel(void* function, unsigned blocks, unsigned, unsigned, unsigned threads, unsigned,
                    unsigned, unsigned, void*, void** parameters, void**) {
   Kernel kernel = nullptr;

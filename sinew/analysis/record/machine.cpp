@@ -112,15 +112,11 @@ Machine read_machine(const config::Node& root) {
   return m;
 }
 
-void replace_parts(Machine& m, const robot::Robot& robot,
-                   const std::vector<actuator::Actuator>& actuators,
-                   const std::vector<gas::Valve>& valves, double atmosphere, double period) {
-  m.robot = robot;
+void replace_parts(Machine& m, const std::vector<actuator::Actuator>& actuators,
+                   const std::vector<gas::Valve>& valves) {
   m.actuators = actuators;
   m.valves.clear();
   for (const gas::Valve& valve : valves) m.valves.push_back(machine_valve_of(valve));
-  m.atmosphere = atmosphere;
-  m.period = period;
 }
 
 std::string_view phase_name(const Machine& m, int phase) {

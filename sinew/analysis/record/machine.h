@@ -59,10 +59,9 @@ struct Machine {
 // mistakes in the keys that are read.
 Machine read_machine(const config::Node& root);
 
-// Replaces a robot's parts by those of another description of the same robot, and the period of the
-// log.
-void replace_parts(Machine&, const robot::Robot&, const std::vector<actuator::Actuator>&,
-                   const std::vector<gas::Valve>&, double atmosphere, double period);
+// Replaces actuators and valves by those of another description of the same machine.
+void replace_parts(Machine&, const std::vector<actuator::Actuator>&,
+                   const std::vector<gas::Valve>&);
 
 // Return whether a phase, an index of Machine::phases, is stance or swing by its name in 5.4:
 // `foot_plant` and `propulsion` are stance, `swing` is swing. Any other phase is neither.

@@ -44,10 +44,27 @@ Record::Record(const signals::Table& table, const Machine& machine, const signal
   swing_ = only([&](const PhaseSpan& s) { return all_or_none(is_swing(machine, s.phase)); });
 }
 
-void Record::find_times() {
+const signals::Series* Record::true_or_measured(const std::string& topic) const {
+  const signals::Series* series = logged("/true" + topic);
+  if (!series) series = logged(topic);
+  return series && !series->time_ns.empty() ? series : nullptr;
+}
+
+const signals::Series* Record::base() const {
+  if (machine_->stand) {
+    for (const std::string& topic : {std::string("/stand/length"), std::string("/stand/force"),
+                                     "/muscle/" + machine_->stand->element.name + "/pressure"})
+      if (const signals::Series* series = true_or_measured(topic)) return series;
+    return nullptr;
+  }
   const signals::Series* base = logged("/plan/phase");
   if (!base && !machine_->robot.joints.empty())
     base = logged("/joint/" + machine_->robot.joints.front().name + "/angle");
+  return base;
+}
+
+void Record::find_times() {
+  const signals::Series* base = this->base();
   period_ = machine_->period;
   if (!base) return;
 

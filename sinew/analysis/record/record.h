@@ -1,8 +1,9 @@
 // analysis/record/record.h - a log as rows: every topic at the same times, and the phase of each
 // row.
 //
-// Rows have the times of /plan/phase, or of the first joint's angle if a log has no plan. For a
-// machine with several legs they are those of the given leg's plan, by default of the first leg's.
+// Rows have the times of /plan/phase, or of the first joint's angle if a log has no plan; of a test
+// stand those of its length, or else of its force or pressure. For a machine with several legs they
+// are those of the given leg's plan, by default of the first leg's.
 // A topic with other times is held from one of its samples to the next. A row lasts until the next
 // one; the last one lasts as long as the one before it.
 #pragma once
@@ -54,6 +55,9 @@ class Record {
   // table has it.
   const signals::Series* find(std::string_view topic) const;
   Column column(std::string_view topic, std::string_view field = "value") const;
+  // Returns the true topic of a simulation, "/true/stand/length", or else the measured one,
+  // "/stand/length", from the log itself; nullptr if both are missing or it has no samples.
+  const signals::Series* true_or_measured(const std::string& topic) const;
   const signals::Table& table() const { return *table_; }
 
   // Returns an empty column to be filled row by row, stored in the same file as the log's columns.
@@ -91,6 +95,7 @@ class Record {
   const signals::Series* find_in(const signals::Table& table, std::string_view topic) const;
   const signals::Series* logged(std::string_view topic) const;  // in the log itself
   void note(const signals::Series* found, std::string_view topic) const;
+  const signals::Series* base() const;  // the topic whose times the rows have
   void find_times();
   void find_phase_spans();
   // Returns the durations of the rows for which wanted(span)(row) holds, and 0 for the others.

@@ -62,7 +62,14 @@ void refuse_wrong(const experiment::Experiment& e, bool allow_unreachable) {
 
 // Gives the machine the parts of the experiment.
 void describe(const experiment::Experiment& e, analysis::Machine& out) {
-  analysis::replace_parts(out, e.robot, e.actuators, e.valves, e.air.atmosphere, e.log.period);
+  analysis::replace_parts(out, e.actuators, e.valves);
+  out.robot = e.robot;
+  if (e.stand) {
+    static_cast<robot::Stand&>(*out.stand) = *e.stand;
+    out.stand->drive_period = e.stand->drive.period;
+  }
+  out.atmosphere = e.air.atmosphere;
+  out.period = e.log.period;
   for (std::size_t i = 0; i < out.faults.size(); ++i) {
     out.faults[i].begin = e.faults[i].at;
     out.faults[i].end = experiment::end_of(e.faults[i]);
@@ -150,10 +157,9 @@ std::unique_ptr<Ensemble::Member> Ensemble::spare() const {
   return std::make_unique<Member>(Member{start_.experiment, start_.machine, nullptr, true});
 }
 
-// Returns whether the file is read for every run: for a stand, whose description for the analysis
-// has other parts; and if the atmosphere differs, to which pressures in the file may refer.
+// Returns whether the file is read for every run: if the atmosphere differs, to which pressures in
+// the file may refer, or if a number determines others.
 bool Ensemble::reads() const {
-  if (start_.experiment.stand) return true;
   if (std::ranges::find(parameters_, "air.atmosphere") != parameters_.end()) return true;
   const std::lock_guard lock(mutex_);
   return reads_;
@@ -294,7 +300,7 @@ analysis::Summary Ensemble::figures_of(const Member& member, const Outcome& outc
   if (member.selection) again = run::run(member.experiment);
   const signals::Table& table = member.selection ? again.table : outcome.table;
   no_air = uses_no_air(table);
-  if (!figures_.empty() && !parameters_.empty() && !machine.stand) {
+  if (!figures_.empty() && !parameters_.empty()) {
     analysis::Selection selection(with_notes(figures_), table, machine);
     selection.add(of_air);
     const std::lock_guard lock(mutex_);
