@@ -2,15 +2,82 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "sinew/control/setup/joint_controllers.h"
 #include "sinew/control/setup/supervision.h"
-#include "sinew/run/controllers/column_list.h"
+#include "sinew/experiment/faults.h"
+#include "sinew/robot/legs.h"
 
 namespace sinew::run {
 namespace {
 
 using signals::Topic;
+
+// A list to which columns are appended.
+class Columns {
+ public:
+  // Adds a column of one field.
+  template <class Value>
+  void scalar(std::string name, std::string unit, std::string description, Value value) {
+    list.push_back({{std::move(name), std::move(description), {{"value", std::move(unit)}}},
+                    [value](const Snapshot& m, double* out) { *out = value(m); }});
+  }
+
+  // Adds a column of the fields x and y.
+  template <class Value>
+  void vector(std::string name, std::string unit, std::string description, Value value) {
+    list.push_back({{std::move(name), std::move(description), {{"x", unit}, {"y", unit}}},
+                    [value](const Snapshot& m, double* out) { value(m, out[0], out[1]); }});
+  }
+
+  // Adds a column of a true value of the robot or of the stand, or of element i of an array.
+  template <class Part, class Value>
+  Column& truth(std::string name, std::string unit, std::string description, Value Part::*value,
+                std::size_t i = 0) {
+    scalar(std::move(name), std::move(unit), std::move(description), [=](const Snapshot& m) {
+      const auto& its = part<Part>(*m.true_of).*value;
+      if constexpr (std::is_same_v<Value, double>)
+        return its;
+      else
+        return its[i];
+    });
+    return list.back();
+  }
+
+  std::vector<Column> list;
+
+ private:
+  template <class Part>
+  static const Part& part(const plant::Truths& all) {
+    if constexpr (std::is_same_v<Part, plant::StandTruth>)
+      return all.stand;
+    else
+      return all.robot;
+  }
+};
+
+// A leg and its number, as needed by its columns.
+struct LegAt {
+  std::size_t leg = 0;
+  robot::LegParts parts;
+
+  // Returns the leg's topic of that name.
+  std::string topic(const std::string& name) const { return robot::topic_of_leg(parts.name, name); }
+};
+
+// Returns the legs in the robot's order.
+std::vector<LegAt> legs_at(const robot::Robot& robot) {
+  std::vector<LegAt> out;
+  for (robot::LegParts& parts : robot::legs_of(robot))
+    out.push_back({out.size(), std::move(parts)});
+  return out;
+}
+
+// Returns whether the cylinder moves the body up and down.
+bool moves(const robot::Cylinder& c) {
+  return c.present && c.mode != robot::Cylinder::Mode::locked;
+}
 
 // A joint's leg, and its number in that leg.
 struct JointAt {
@@ -191,6 +258,210 @@ void gain_columns(const experiment::Experiment& e, const LegAt& leg, Columns& ou
     out.scalar(std::move(name), std::string(s.unit), "in effect",
                [s, l = leg.leg](const Snapshot& m) { return gait::value_of(s, m.desired[l]); });
   }
+}
+
+// --- columns that only a simulation can provide ---
+
+using T = plant::Truth;
+
+void true_joint_columns(const robot::Robot& robot, Columns& out) {
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const std::string at = "/true" + robot::topic_of_joint(robot, j);
+    out.truth(at + "/angle", "rad", "of the simulated joint", &T::angle, j).is_of_motion = true;
+    out.truth(at + "/velocity", "rad/s", "of the simulated joint", &T::rate, j).is_of_motion = true;
+    out.truth(at + "/torque", "N m", "of its muscles", &T::torque, j);
+  }
+}
+
+// Returns whether a muscle leaks, by its description or by a fault.
+bool leaks(const experiment::Experiment& e, const robot::Muscle& m) {
+  using What = experiment::Fault::What;
+  return m.leak.area > 0 || m.leak.conductance > 0 ||
+         std::ranges::any_of(e.faults, [&](const experiment::Fault& f) {
+           return f.of == m.name && (f.what == What::leaking || f.what == What::ruptured);
+         });
+}
+
+void true_muscle_columns(const experiment::Experiment& e, Columns& out) {
+  const robot::Robot& robot = e.robot;
+  for (std::size_t i = 0; i < robot.muscles.size(); ++i) {
+    const std::string at = "/true" + robot::topic_of_muscle(robot, i);
+    out.truth(at + "/tension", "N", "in the tendon", &T::tension, i);
+    out.truth(at + "/pressure", "Pa", "absolute", &T::pressure, i);
+    out.truth(at + "/length", "m", "of the actuators", &T::length, i);
+    out.truth(at + "/mass", "kg", "of the air in the bundle", &T::mass, i);
+    out.truth(at + "/air_in", "kg", "from the supply since the start", &T::air_in, i);
+    out.truth(at + "/air_out", "kg", "to the atmosphere since the start", &T::air_out, i);
+    if (leaks(e, robot.muscles[i]))
+      out.truth(at + "/air_leaked", "kg", "to the atmosphere, past the valves, since the start",
+                &T::air_leaked, i);
+  }
+}
+
+// Adds the mass of all the machine's air, for its balance, if a part of the air can fail or a hose
+// holds air in addition to the muscles.
+void true_air_columns(const experiment::Experiment& e, Columns& out) {
+  const bool breaks = !std::ranges::all_of(
+      e.faults, [](const experiment::Fault& f) { return is_of_sensor(f.what); });
+  const bool in_hoses = std::ranges::any_of(e.robot.muscles, [](const robot::Muscle& m) {
+    return m.hose.law != gas::Hose::Law::none && m.hose.volume > 0;
+  });
+  if (!breaks && !in_hoses) return;
+  out.truth("/true/air/mass", "kg", "in chambers, hoses and tank", &T::air_mass);
+  const bool fails = std::ranges::any_of(e.faults, [](const experiment::Fault& f) {
+    return f.what == experiment::Fault::What::failed;
+  });
+  if (fails && e.supply.kind == gas::Supply::Kind::tank)
+    out.truth("/true/supply/air_past_tank", "kg",
+              "from the line while a fault had cut it from its tank, since the start",
+              &T::air_past_tank);
+}
+
+void true_supply_columns(const gas::Supply& supply, Columns& out) {
+  if (supply.kind != gas::Supply::Kind::tank) return;
+  out.truth("/true/supply/pressure", "Pa", "of the line to the inlets, absolute",
+            &T::supply_pressure);
+  out.truth("/true/supply/tank_pressure", "Pa", "before the regulator, absolute",
+            &T::tank_pressure);
+}
+
+// `disc` counts the discs of all feet.
+void true_foot_columns(const robot::Robot& robot, const LegAt& leg, std::size_t& disc,
+                       Columns& out) {
+  const robot::Foot& foot = robot::foot_of(robot, leg.leg);
+  const std::size_t l = leg.leg;
+  if (!foot.present) return;
+  out.vector(leg.topic("/true/foot/position"), "m", "of the ankle, about the first joint",
+             [l](const Snapshot& m, double& x, double& y) {
+               x = m.true_of->robot.foot[l].x;
+               y = m.true_of->robot.foot[l].y;
+             });
+  out.vector(leg.topic("/true/foot/force"), "N", "on the foot, by the ground",
+             [l](const Snapshot& m, double& x, double& y) {
+               x = m.true_of->robot.foot[l].force_x;
+               y = m.true_of->robot.foot[l].force_y;
+             });
+  for (const robot::Foot::Point& point : foot.points)
+    out.truth(leg.topic("/true/foot/" + point.name + "/load"), "N", "of the ground, up",
+              &T::disc_force, disc++);
+  if (foot.points.empty()) ++disc;
+}
+
+void true_body_columns(const robot::Robot& robot, Columns& out) {
+  if (robot.trolley.present) {
+    out.truth("/true/trolley/position", "m", "along the track", &T::x).is_of_motion = true;
+    out.truth("/true/trolley/velocity", "m/s", "along the track", &T::x_rate).is_of_motion = true;
+  }
+  std::size_t disc = 0;
+  for (const LegAt& leg : legs_at(robot)) true_foot_columns(robot, leg, disc, out);
+  if (!robot.rollers.present) return;
+  out.truth("/true/roller/front/load", "N", "below 0: it has lifted off", &T::roller_front);
+  out.truth("/true/roller/rear/load", "N", "below 0: it has lifted off", &T::roller_rear);
+}
+
+void true_cylinder_columns(const robot::Robot& robot, Columns& out) {
+  if (!moves(robot.cylinder)) return;
+  out.truth("/true/cylinder/position", "m", "up from the extended stop", &T::lift);
+  out.truth("/true/cylinder/velocity", "m/s", "upwards", &T::lift_rate);
+  if (robot.cylinder.mode == robot::Cylinder::Mode::free) return;
+  for (const auto& [name, c] :
+       {std::pair{"up", std::size_t{0}}, std::pair{"down", std::size_t{1}}}) {
+    const std::string at = std::string("/true/cylinder/") + name;
+    out.truth(at + "/pressure", "Pa", "absolute", &T::cylinder_pressure, c);
+    out.truth(at + "/air_in", "kg", "from the supply since the start", &T::cylinder_in, c);
+    out.truth(at + "/air_out", "kg", "to the atmosphere since the start", &T::cylinder_out, c);
+  }
+}
+
+void true_fault_columns(const experiment::Experiment& e, Columns& out) {
+  for (const experiment::FaultsOfPart& part : experiment::by_part(e.faults)) {
+    if (is_of_sensor(part.faults.front().what))
+      out.scalar(part.topic, "1", "1 while one of the experiment's acts on it",
+                 [part](const Snapshot& m) { return part.acted(m.time, 0); });
+    else
+      out.scalar(
+          part.topic, "1", experiment::fault_description,
+          [part, period = e.log.period](const Snapshot& m) { return part.acted(m.time, period); });
+  }
+}
+
+void true_columns(const experiment::Experiment& e, Columns& out) {
+  true_joint_columns(e.robot, out);
+  true_muscle_columns(e, out);
+  true_body_columns(e.robot, out);
+  true_cylinder_columns(e.robot, out);
+  true_air_columns(e, out);
+  true_supply_columns(e.supply, out);
+  true_fault_columns(e, out);
+}
+
+// --- columns of a test stand ---
+
+using experiment::Stand;
+
+bool has_law(const Stand& s) {
+  return s.drive.kind == Stand::Drive::Kind::feed_forward ||
+         s.drive.kind == Stand::Drive::Kind::feedback;
+}
+
+std::string unit_of(robot::Transducer::Of of) {
+  using Of = robot::Transducer::Of;
+  return of == Of::length ? "m" : of == Of::force ? "N" : of == Of::pressure ? "Pa" : "m/s^2";
+}
+
+void measured_columns(const Stand& stand, Columns& out) {
+  for (std::size_t s = 0; s < stand.sensors.size(); ++s) {
+    const robot::Transducer& t = stand.sensors[s];
+    out.scalar("/sensor/" + t.name + "/count", "count", "as converted",
+               [s](const Snapshot& m) { return double(m.controller->reading(s).counts); });
+    out.scalar(
+        "/sensor/" + t.name + "/value", unit_of(t.of), "by its own scale; pressure is gauge",
+        [s, t](const Snapshot& m) { return robot::quantity(t, m.controller->reading(s).counts); });
+  }
+  if (has_law(stand))
+    out.scalar("/desired/length", "m", "of the element",
+               [](const Snapshot& m) { return m.drive->setpoint().length; });
+  if (!has_law(stand) && stand.drive.kind != Stand::Drive::Kind::pwm) return;
+  const std::string at = "/muscle/" + stand.element.name;
+  out.scalar(at + "/inlet_duty", "1", "commanded share of the period",
+             [](const Snapshot& m) { return m.drive->shares().inlet; });
+  if (!stand.element.exhaust.empty())
+    out.scalar(at + "/exhaust_duty", "1", "commanded share of the period",
+               [](const Snapshot& m) { return m.drive->shares().exhaust; });
+}
+
+void true_stand_columns(const experiment::Experiment& e, Columns& out) {
+  using S = plant::StandTruth;
+  const Stand& stand = *e.stand;
+  out.truth("/true/stand/length", "m", "of the element, grows as it is pulled", &S::length);
+  out.truth("/true/stand/velocity", "m/s", "of its length", &S::velocity);
+  out.truth("/true/stand/acceleration", "m/s^2", "of its length", &S::acceleration);
+  out.truth("/true/stand/force", "N", "of the element on the load, dry friction in it", &S::force);
+  out.truth("/true/stand/friction", "N", "dry part of the force", &S::friction);
+  if (stand.load.mode == robot::Stand::Load::Mode::hanging)
+    out.truth("/true/stand/mass", "kg", "that hangs", &S::load);
+  const std::string& name = stand.element.name;
+  const std::string at = "/true/muscle/" + name;
+  out.truth(at + "/pressure", "Pa", "absolute", &S::pressure);
+  out.truth(at + "/mass", "kg", "of its air", &S::air);
+  out.truth(at + "/air_in", "kg", "since the start", &S::air_in);
+  out.truth(at + "/air_out", "kg", "since the start", &S::air_out);
+  out.truth(at + "/air_leaked", "kg", "since the start", &S::air_leaked);
+  if (stand.element.hose.law != gas::Hose::Law::none && stand.element.hose.volume > 0)
+    out.truth("/true/air/mass", "kg", "in element, hose and tank", &S::all_air);
+  if (stand.charge.mode == robot::Stand::Charge::Mode::valves) {
+    out.truth("/true/valve/" + name + "/inlet", "1", "open share of its area", &S::inlet);
+    out.truth("/true/valve/" + name + "/exhaust", "1", "open share of its area", &S::exhaust);
+    out.truth("/true/supply/pressure", "Pa", "of the line, absolute", &S::supply_pressure);
+  }
+  if (e.supply.kind == gas::Supply::Kind::tank)
+    out.truth("/true/supply/tank_pressure", "Pa", "absolute", &S::tank_pressure);
+}
+
+void stand_columns(const experiment::Experiment& e, Columns& out) {
+  measured_columns(*e.stand, out);
+  true_stand_columns(e, out);
+  true_fault_columns(e, out);
 }
 
 }  // namespace
