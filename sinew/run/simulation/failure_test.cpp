@@ -1,6 +1,5 @@
 // Experiments that cannot run are refused with their key; one that diverges nevertheless ends its
 // run, in every world, with the muscle, the time and the cause.
-#include "sinew/run/setup/failure.h"
 
 #include <gtest/gtest.h>
 

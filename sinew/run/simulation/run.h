@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sinew/actuator/actuator.h"
 #include "sinew/air/failure.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/host/realtime.h"
@@ -81,5 +82,10 @@ Outcome run(const experiment::Experiment& experiment, const RunOptions& options 
 // Feeds the recorded readings of a run to the present controller. Returns the edges that it
 // decides, for comparison with the recorded ones.
 Outcome replay(const experiment::Experiment& experiment, const signals::Table& recorded);
+
+// Returns "the air of muscle knee_flexor was not finite at 0.012 s: …; try …". `who` is the
+// muscle's name in its file, `step` the key of the step's length.
+std::string to_text(const air::Failure& failure, const std::string& who,
+                    const actuator::Actuator& actuator, const std::string& step);
 
 }  // namespace sinew::run
