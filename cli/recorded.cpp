@@ -24,7 +24,6 @@
 #include "sinew/report/compare/comparison.h"
 #include "sinew/report/compare/comparison_text.h"
 #include "sinew/report/page/page.h"
-#include "sinew/run/folder/compared.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/page.h"
 #include "sinew/run/folder/run_folder.h"

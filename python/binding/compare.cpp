@@ -4,7 +4,7 @@
 #include "python/binding/bind.h"
 #include "python/binding/recording.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/run/folder/compared.h"
+#include "sinew/run/folder/page.h"
 #include "sinew/run/folder/replayed.h"
 
 namespace sinew::python {

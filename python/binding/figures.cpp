@@ -4,7 +4,7 @@
 #include "python/binding/recording.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/report/compare/comparison.h"
-#include "sinew/run/folder/compared.h"
+#include "sinew/run/folder/page.h"
 #include "sinew/run/folder/drawn_run.h"
 #include "sinew/run/folder/files.h"
 

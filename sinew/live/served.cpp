@@ -16,7 +16,6 @@
 #include "sinew/report/compare/comparison.h"
 #include "sinew/report/page/page.h"
 #include "sinew/report/page/picture.h"
-#include "sinew/run/folder/compared.h"
 #include "sinew/run/folder/page.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/tune/page/study_view.h"

@@ -14,7 +14,7 @@
 #include "sinew/log/reader.h"
 #include "sinew/log/writer.h"
 #include "sinew/run/controllers/columns.h"
-#include "sinew/run/simulation/logged.h"
+#include "sinew/run/folder/run_log.h"
 #include "sinew/run/simulation/run.h"
 #include "tests/places.h"
 

@@ -1,6 +1,6 @@
 // A measurement is aligned with a simulation although their clocks differ, and the remaining
 // difference shows which parameter differs.
-#include "sinew/run/folder/compared.h"
+#include "sinew/run/folder/page.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -12,7 +12,7 @@
 #include "sinew/run/folder/page.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/setup/buildable.h"
-#include "sinew/run/simulation/logged.h"
+#include "sinew/run/folder/run_log.h"
 #include "sinew/run/simulation/remote_boards.h"
 
 namespace sinew::run {

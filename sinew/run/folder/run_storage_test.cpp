@@ -9,7 +9,6 @@
 
 #include "sinew/log/reader.h"
 #include "sinew/report/page/page.h"
-#include "sinew/run/folder/compared.h"
 #include "sinew/run/folder/drawn_run.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/page.h"
