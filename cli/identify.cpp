@@ -20,7 +20,7 @@
 #include "sinew/identify/task/methods.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
-#include "sinew/recording/stated.h"
+#include "sinew/recording/recorded.h"
 #include "sinew/report/page/page.h"
 #include "sinew/run/folder/files.h"
 

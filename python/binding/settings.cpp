@@ -4,7 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "sinew/identify/task/tables.h"
-#include "sinew/recording/stated.h"
+#include "sinew/recording/recorded.h"
 #include "sinew/units/quantity.h"
 
 namespace sinew::python {

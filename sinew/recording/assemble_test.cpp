@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/recording/read.h"
+#include "sinew/recording/recorded.h"
 
 namespace sinew::recording::assemble_test {
 namespace {

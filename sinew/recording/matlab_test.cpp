@@ -10,7 +10,7 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/host/module.h"
-#include "sinew/recording/read.h"
+#include "sinew/recording/recorded.h"
 
 // Files are written here byte by byte, after the published format, so that the reader is tested
 // independently of its own library.

@@ -25,7 +25,7 @@
 #include "sinew/recording/number.h"
 #include "sinew/recording/parts.h"
 #include "sinew/recording/selected_rows.h"
-#include "sinew/recording/stated.h"
+#include "sinew/recording/recorded.h"
 #include "sinew/units/quantity.h"
 #include "sinew/units/unit.h"
 

@@ -1,4 +1,4 @@
-#include "sinew/recording/read.h"
+#include "sinew/recording/recorded.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
