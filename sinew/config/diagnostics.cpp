@@ -1,9 +1,9 @@
 #include "sinew/config/diagnostics.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "sinew/config/utf8.h"
 
@@ -79,6 +79,27 @@ std::string listed(const std::vector<std::string>& words, std::size_t most) {
   for (std::size_t i = 0; i < std::min(words.size(), most); ++i)
     text += (i > 0 ? ", " : "") + words[i];
   return words.size() > most ? fmt::format("{} and {} more", text, words.size() - most) : text;
+}
+
+void Problems::add(int line, int column, std::string key, std::string found, std::string expected,
+                   std::string try_this) {
+  add({{file_, line, column},
+       std::move(key),
+       std::move(found),
+       std::move(expected),
+       std::move(try_this)});
+}
+
+void Problems::add(Problem problem) {
+  ++count_;
+  if (problems_.size() < most_) problems_.push_back(std::move(problem));
+}
+
+void Problems::finish() {
+  if (problems_.empty()) return;
+  if (count_ > problems_.size())
+    problems_.back().expected += fmt::format(" (and {} more such)", count_ - problems_.size());
+  throw Error(problems_);
 }
 
 }  // namespace sinew::config

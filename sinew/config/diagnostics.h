@@ -4,6 +4,7 @@
 // A problem is printed as `file:line:col: key: found …; expected …; try …`, one line each.
 #pragma once
 
+#include <cstddef>
 #include <exception>
 #include <string>
 #include <string_view>
@@ -93,5 +94,31 @@ const Item& named(const std::vector<Item>& items, const std::string& name, std::
   fail({std::string(where), 0, 0}, "", name.empty() ? no : in_quotes(name), either(names),
        closest_in_quotes(name, names));
 }
+
+// Collects the faults of a file.
+class Problems {
+ public:
+  // Takes the name of the file that has the faults. A file of many rows reports the first `most`
+  // and the number of the others.
+  explicit Problems(std::string file, std::size_t most = 8) : file_(std::move(file)), most_(most) {}
+
+  // Adds a fault; `line` 0: it belongs to no line.
+  void add(int line, int column, std::string key, std::string found, std::string expected,
+           std::string try_this = "");
+  // Adds a fault of any file.
+  void add(Problem problem);
+
+  // Returns the number of faults.
+  std::size_t count() const { return count_; }
+
+  // Throws Error if there are any faults.
+  void finish();
+
+ private:
+  std::string file_;
+  std::size_t most_;
+  std::vector<Problem> problems_;
+  std::size_t count_ = 0;
+};
 
 }  // namespace sinew::config

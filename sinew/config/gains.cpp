@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "sinew/config/problems.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/config/rows.h"
 #include "sinew/config/text_file.h"
 #include "sinew/units/quantity.h"

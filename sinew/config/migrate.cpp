@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "sinew/config/problems.h"
+#include "sinew/config/diagnostics.h"
 
 namespace sinew::config {
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/problems.h"
 #include "sinew/config/rows.h"
 #include "sinew/config/text_file.h"
 

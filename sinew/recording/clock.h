@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/config/problems.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/recording/grid.h"
 #include "sinew/recording/stamp.h"
 

@@ -15,7 +15,7 @@
 #include <variant>
 #include <vector>
 
-#include "sinew/config/problems.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/recording/rows.h"
 #include "sinew/units/quantity.h"
 

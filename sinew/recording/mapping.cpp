@@ -8,7 +8,6 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/problems.h"
 #include "sinew/config/reader.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/recording/mapping.fields.h"

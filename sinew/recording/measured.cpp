@@ -18,14 +18,13 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/problems.h"
 #include "sinew/recording/clock.h"
 #include "sinew/recording/columns.h"
 #include "sinew/recording/grid.h"
 #include "sinew/recording/number.h"
 #include "sinew/recording/parts.h"
-#include "sinew/recording/selected_rows.h"
 #include "sinew/recording/recorded.h"
+#include "sinew/recording/selected_rows.h"
 #include "sinew/units/quantity.h"
 #include "sinew/units/unit.h"
 

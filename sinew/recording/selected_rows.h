@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "sinew/config/problems.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/recording/clock.h"
 #include "sinew/recording/grid.h"
 

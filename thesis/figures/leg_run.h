@@ -9,7 +9,7 @@
 #include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/record/record.h"
 #include "sinew/analysis/summary.h"
-#include "sinew/report/page/channels.h"
+#include "sinew/report/page/plot.h"
 #include "sinew/units/shown.h"
 #include "thesis/figures/thesis.h"
 

@@ -9,7 +9,7 @@
 #include <map>
 #include <sstream>
 
-#include "sinew/config/problems.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/config/rows.h"
 #include "sinew/run/simulation/recorder.h"
 #include "sinew/units/constants.h"
