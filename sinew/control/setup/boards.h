@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sinew/control/joint/config.h"
-#include "sinew/control/setup/installation.h"
+#include "sinew/control/setup/joint_controllers.h"
 #include "sinew/control/supervise/limits.h"
 #include "sinew/robot/stand.h"
 

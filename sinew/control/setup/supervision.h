@@ -10,7 +10,7 @@
 
 #include <string>
 
-#include "sinew/control/setup/installation.h"
+#include "sinew/control/setup/joint_controllers.h"
 #include "sinew/control/supervise/limits.h"
 #include "sinew/control/supervise/supervisor.h"
 
