@@ -12,7 +12,6 @@
 
 #include "python/binding/recording.h"
 #include "sinew/config/node.h"
-#include "sinew/run/folder/outcome.h"
 #include "sinew/run/folder/run_storage.h"
 #include "sinew/run/simulation/place.h"
 

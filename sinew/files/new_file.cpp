@@ -21,7 +21,6 @@
 #include "sinew/experiment/machine_file.h"
 #include "sinew/files/check.h"
 #include "sinew/run/folder/files.h"
-#include "sinew/run/folder/output_folder.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::files {

@@ -17,7 +17,6 @@
 #include "sinew/run/bring_up/trial.h"
 #include "sinew/run/bring_up/wires.h"
 #include "sinew/run/folder/files.h"
-#include "sinew/run/folder/output_folder.h"
 #include "sinew/run/simulation/remote_boards.h"
 #include "sinew/units/hash.h"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "sinew/report/page/html.h"
+#include "sinew/report/page/page.h"
 
 namespace sinew::run {
 

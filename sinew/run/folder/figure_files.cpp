@@ -20,7 +20,6 @@
 #include "sinew/report/text/text_table.h"
 #include "sinew/robot/legs.h"
 #include "sinew/run/folder/files.h"
-#include "sinew/run/folder/output_folder.h"
 
 namespace sinew::run {
 

@@ -1,5 +1,5 @@
-// run/folder/files.h - atomic writing of files, protection of other programs' files, and refusal of
-// paths.
+// run/folder/files.h - atomic writing of files and of the files of a folder, protection of other
+// programs' files, and refusal of paths.
 #pragma once
 
 #include <filesystem>
@@ -38,5 +38,53 @@ void write_file(const std::filesystem::path& file, std::string_view text,
   config::fail({where.string(), 0, 0}, "", std::move(found), std::move(expected),
                std::move(try_this));
 }
+
+// A folder whose files are replaced together: an older result remains until the new one is
+// complete, and only one process writes at a time.
+//
+// The new files are written into a folder within it, the stage. When they are complete, the stage
+// is renamed to `.finished`, and its files are moved to their places one by one. A process that is
+// killed meanwhile leaves `.finished`; the next process that opens the folder, to read or to write,
+// completes the move.
+
+// Creates a folder with its parents, if it does not exist. Throws config::Error if it cannot be
+// created.
+void make_folders(const std::filesystem::path& folder);
+
+// Returns the names of the files and folders in a folder, sorted. Throws config::Error.
+std::vector<std::string> names_in(const std::filesystem::path& folder);
+
+class OutputFolder {
+ public:
+  // Creates the folder if it is missing, and locks it for the lifetime of this object. Throws
+  // config::Error if it cannot be created, or if another process has locked it, with the process's
+  // number.
+  explicit OutputFolder(std::filesystem::path folder);
+  ~OutputFolder();
+  OutputFolder(OutputFolder&& other) noexcept;
+  OutputFolder& operator=(OutputFolder&&) = delete;
+
+  // Return the folder itself, and the folder to write to: the stage if there is one.
+  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& work() const { return stage_.empty() ? path_ : stage_; }
+  bool staged() const { return !stage_.empty(); }
+
+  // Creates a folder within it, which must be missing or empty, as the stage. Throws config::Error.
+  void stage(const std::string& name);
+
+  // Syncs the written files. Moves those of a stage into the folder, where they replace
+  // files of the same names, removes `replaced`, names within the folder, and removes the stage. If
+  // it throws config::Error, either the old files are unchanged or the next process that opens the
+  // folder completes the move.
+  void commit(const std::vector<std::string>& replaced);
+
+ private:
+  std::filesystem::path path_, stage_;
+  int fd_ = -1;
+};
+
+// Completes a move of files that was interrupted by the end of its process; changes nothing else.
+// To be called before reading from a folder. Throws config::Error.
+void finish_replacing(const std::filesystem::path& folder);
 
 }  // namespace sinew::run

@@ -1,6 +1,6 @@
 // A tick that a board's clock has missed is reported by the run: as a count, in the log, in the
 // summary and in a warning.
-#include "sinew/run/folder/outcome.h"
+#include "sinew/run/simulation/run.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/run/folder/output_folder.h"
+#include "sinew/run/folder/files.h"
 
 namespace sinew::run {
 

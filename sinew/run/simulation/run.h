@@ -1,4 +1,4 @@
-// run/simulation/run.h - run of an experiment from start to finish.
+// run/simulation/run.h - run of an experiment from start to finish, and texts about its outcome.
 #pragma once
 
 #include <atomic>
@@ -87,5 +87,13 @@ Outcome replay(const experiment::Experiment& experiment, const signals::Table& r
 // muscle's name in its file, `step` the key of the step's length.
 std::string to_text(const air::Failure& failure, const std::string& who,
                     const actuator::Actuator& actuator, const std::string& step);
+
+// Returns a sentence for each kind of lateness on this computer, for rejected readings without a
+// channel of their own, and for faults that never acted.
+std::vector<std::string> warnings_outside_log(const experiment::Experiment& experiment,
+                                              const run::Outcome& outcome);
+
+// Returns why the run ended early, with the last record of every topic.
+std::string last_records(const experiment::Experiment& experiment, const run::Outcome& outcome);
 
 }  // namespace sinew::run
