@@ -22,7 +22,6 @@
 #include "sinew/log/csv.h"
 #include "sinew/log/reader.h"
 #include "sinew/report/compare/comparison.h"
-#include "sinew/report/compare/comparison_text.h"
 #include "sinew/report/page/page.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/page.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "fmu/slave/description.h"
-#include "sinew/report/page/html.h"
+#include "sinew/report/page/page.h"
 #include "sinew/units/unit.h"
 
 namespace sinew::fmu {

@@ -13,8 +13,8 @@
 #include "sinew/experiment/experiment.h"
 #include "sinew/live/request.h"
 #include "sinew/log/writer.h"
-#include "sinew/report/page/changes.h"
 #include "sinew/report/page/live_page.h"
+#include "sinew/report/page/parameters.h"
 #include "sinew/run/controllers/steering.h"
 #include "sinew/signals/table.h"
 
@@ -97,7 +97,7 @@ class LiveView {
   void record_changes();
 
   // Returns an update for a page: JSON with `piece` (report/page/live_page.h) and `changes`
-  // (report/page/changes.h), if there are any, and `state`. Returns "" before the first row.
+  // (report/page/parameters.h), if there are any, and `state`. Returns "" before the first row.
   std::string frame(Position& position);
 
   // Handles a request of a page. Returns {"error": …} for this page if it fails, else "".

@@ -38,7 +38,7 @@ const of_one = (value) => ({ time: Float64Array.of(0), values: Float32Array.of(v
 const curve = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 96 96" fill="none"><path d="M12 16V80H88" stroke="#8a95a5" stroke-width="3"/>
 <path d="M16 48C22 12 28 12 34 48S46 80 52 48S62 22 68 48S78 66 84 48" stroke="#2f86c5" stroke-width="4"/></svg>`;
 
-// Returns the picture on light and on dark as addresses of images. `found`: what the program sends (sinew/report/page/picture.h).
+// Returns the picture on light and on dark as addresses of images. `found`: what the program sends (sinew/report/page/content.h).
 // `canvas`: any canvas of the page, on which it is drawn.
 export async function icons_of(found, canvas) {
   const units = new Units(found.atmosphere ?? 101325);

@@ -1,4 +1,4 @@
-#include "sinew/report/compare/comparison_text.h"
+#include "sinew/report/compare/comparison.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

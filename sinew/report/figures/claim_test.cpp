@@ -1,5 +1,5 @@
 // Verdicts follow from numbers alone.
-#include "sinew/report/figures/claim.h"
+#include "sinew/report/figures/gallery.h"
 
 #include <gtest/gtest.h>
 

@@ -14,9 +14,9 @@
 #include "sinew/analysis/record/derived.h"
 #include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/record/record.h"
-#include "sinew/report/page/channels.h"
 #include "sinew/report/page/panels.h"
 #include "sinew/report/page/parameters.h"
+#include "sinew/report/page/plot.h"
 #include "sinew/report/page/stand.h"
 #include "sinew/robot/legs.h"
 

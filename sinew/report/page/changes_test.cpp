@@ -1,12 +1,12 @@
 // Tests of parameters that were changed during a run, and of the picture of a run in a list.
-#include "sinew/report/page/changes.h"
+#include "sinew/report/page/parameters.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "sinew/config/compose.h"
-#include "sinew/report/page/picture.h"
+#include "sinew/report/page/content.h"
 #include "tests/places.h"
 
 namespace sinew::report::changes_test {

@@ -1,5 +1,5 @@
 // report/page/content.h - parts of a page's JSON, the columns that they refer to, and the encoded
-// samples of the columns.
+// samples of the columns; and the picture of a run in a list.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@
 #include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/record/record.h"
 #include "sinew/analysis/warnings.h"
+#include "sinew/config/node.h"
 #include "sinew/config/shown_units.h"
 #include "sinew/json/json.h"
-#include "sinew/report/page/channels.h"
 #include "sinew/report/page/panels.h"
 #include "sinew/report/page/parameters.h"
 #include "sinew/report/page/plot.h"
@@ -132,5 +132,10 @@ std::string units_json(const units::ShownUnits& start);
 
 // Returns the table that starts with the units of the environment and the user's settings.
 std::string units_json();
+
+// Returns the machine of a run in its initial pose, as web/src/run_list.js draws it, as JSON:
+// {"scene", "atmosphere", "samples", "data"}, the scene with one sample (content.h), null if it has
+// no links; {"stand": true} for a test stand; {} if the file does not describe a machine.
+std::string picture(const config::Node& resolved);
 
 }  // namespace sinew::report

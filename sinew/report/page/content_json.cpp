@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "sinew/json/json.h"
-#include "sinew/report/page/changes.h"
 #include "sinew/report/page/content.h"
 #include "sinew/report/page/fit_page.h"
+#include "sinew/report/page/parameters.h"
 
 namespace sinew::report {
 namespace {

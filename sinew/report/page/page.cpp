@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sinew/config/utf8.h"
 #include "sinew/report/page/content.h"
-#include "sinew/report/page/html.h"
 
 namespace sinew::report {
+
 namespace {
 
 // Escapes JSON, which then cannot end its script element.
@@ -70,6 +71,23 @@ std::string fill(std::string_view page_template, const Content& content) {
     from = p.at + p.mark.size();
   }
   out += page_template.substr(from);
+  return out;
+}
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : config::in_utf8(text)) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
   return out;
 }
 

@@ -62,4 +62,7 @@ std::string_view design_template();      // a design
 std::string_view study_template();       // a sweep or a tuning, or two of them
 std::string_view run_list_template();    // the runs in a folder
 
+// Escapes text for use between tags and in attributes with double quotes.
+std::string escaped(std::string_view text);
+
 }  // namespace sinew::report

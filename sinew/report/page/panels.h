@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "sinew/analysis/record/machine.h"
-#include "sinew/report/page/channels.h"
 #include "sinew/report/page/plot.h"
 
 namespace sinew::report {

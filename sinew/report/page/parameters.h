@@ -1,4 +1,5 @@
-// report/page/parameters.h - table of every value that a run used.
+// report/page/parameters.h - table of every value that a run used, and the values that were changed
+// during it.
 #pragma once
 
 #include <optional>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "sinew/config/node.h"
+#include "sinew/json/json.h"
 
 namespace sinew::report {
 
@@ -36,5 +38,23 @@ struct ParameterRow {
 // Returns the parameters that differ: those of the first run in its order, then those that only
 // others have. Values are compared, not their sources; title and reproduced source do not count.
 std::vector<ParameterRow> differing(const std::vector<const std::vector<Parameter>*>& runs);
+
+// A parameter that was changed during a run, by the list [[change]] of its file or by a slider: a
+// mark on the page's time axes.
+struct PageChange {
+  double time = 0;       // [s]
+  std::string key;       // control.gains.hip.angle
+  bool release = false;  // the parameter returns to the plan's value
+  double value = 0;      // [unit]
+  std::string unit;      // SI
+  std::string leg{};     // name of the leg; empty: every leg
+};
+
+// Reads the list of a resolved.toml, in its order. Entries that are not in its form are left out.
+std::vector<PageChange> changes_of(const config::Node& resolved);
+
+// Returns a JSON array: [{"time": 3, "key": …, "value": 0.004, "unit": "1/count"}, …]; null is the
+// value of a release.
+Json to_json(const std::vector<PageChange>& changes);
 
 }  // namespace sinew::report

@@ -13,7 +13,7 @@
 
 #include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/record/record.h"
-#include "sinew/report/page/channels.h"
+#include "sinew/report/page/plot.h"
 #include "sinew/robot/kinematics.h"
 #include "sinew/signals/table.h"
 

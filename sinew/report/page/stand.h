@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "sinew/analysis/record/machine.h"
-#include "sinew/report/page/channels.h"
 #include "sinew/report/page/plot.h"
 #include "sinew/signals/table.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sinew/control/setup/boards.h"
-#include "sinew/control/setup/installation.h"
+#include "sinew/control/setup/joint_controllers.h"
 #include "sinew/experiment/experiment.h"
 
 namespace sinew::run {

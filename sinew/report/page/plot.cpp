@@ -1,4 +1,4 @@
-#include "sinew/report/page/channels.h"
+#include "sinew/report/page/plot.h"
 
 namespace sinew::report {
 
