@@ -18,7 +18,6 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
 #include "sinew/config/text_file.h"
-#include "sinew/live/browser.h"
 #include "sinew/live/live_run.h"
 #include "sinew/live/served.h"
 #include "sinew/log/reader.h"

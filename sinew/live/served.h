@@ -1,4 +1,5 @@
-// live/served.h - pages of existing files for `sinew view`: runs, or studies.
+// live/served.h - pages of existing files for `sinew view`, runs or studies, and the user's
+// browser.
 #pragma once
 
 #include <filesystem>
@@ -12,6 +13,21 @@
 #include "sinew/run/folder/notices.h"
 
 namespace sinew::live {
+
+// Opens an address in the browser if there is a graphical session and the address is not "". All
+// users of the computer can read the arguments of a command, and the address has a secret token.
+// The browser is therefore given a file that only its user may read and that redirects to the
+// address. The file is removed by the destructor.
+class Browser {
+ public:
+  explicit Browser(const std::string& url);
+  ~Browser();
+  Browser(const Browser&) = delete;
+  Browser& operator=(const Browser&) = delete;
+
+ private:
+  std::filesystem::path redirecting_page_;
+};
 
 struct Served {
   std::function<Reply(std::string_view path)> get;                 // for a server
