@@ -79,6 +79,13 @@ class Json {
   // Returns an array of these items; object() returns an object without members.
   static Json array();
   static Json array(std::initializer_list<Json> items);
+  // Returns an array of of(item) for each item of a list.
+  template <class List, class Of>
+  static Json array(const List& list, const Of& of) {
+    Json out = array();
+    for (const auto& item : list) out.push_back(of(item));
+    return out;
+  }
   static Json object();
 
   // Returns the value of a JSON text. Throws JsonError, with the position of the error, if the text

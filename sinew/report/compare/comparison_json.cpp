@@ -36,21 +36,20 @@ Json alignment_of(const analysis::Alignment& a) {
 }
 
 Json runs_of(const Comparison& c) {
-  Json out = Json::array();
-  for (const ComparedRun& run : c.runs) {
-    out.push_back({{"label", run.label},
-                   {"title", run.title},
-                   {"reproduces", run.reproduces},
-                   {"robot", run.robot},
-                   {"seed", run.seed},
-                   {"version", run.version},
-                   {"complete", run.logged.complete},
-                   {"shift_s", run.shift},
-                   {"first_s", run.first},
-                   {"last_s", run.last}});
-    if (run.alignment) out.back()["alignment"] = alignment_of(*run.alignment);
-  }
-  return out;
+  return Json::array(c.runs, [](const ComparedRun& run) {
+    Json out{{"label", run.label},
+             {"title", run.title},
+             {"reproduces", run.reproduces},
+             {"robot", run.robot},
+             {"seed", run.seed},
+             {"version", run.version},
+             {"complete", run.logged.complete},
+             {"shift_s", run.shift},
+             {"first_s", run.first},
+             {"last_s", run.last}};
+    if (run.alignment) out["alignment"] = alignment_of(*run.alignment);
+    return out;
+  });
 }
 
 Json figures_of(const Comparison& c) {
@@ -80,13 +79,9 @@ Json figures_of(const Comparison& c) {
 }
 
 Json parameters_of(const Comparison& c) {
-  Json out = Json::array();
-  for (const ParameterRow& row : c.parameters) {
-    Json values = Json::array();
-    for (const auto& value : row.values) values.push_back(or_null(value));
-    out.push_back({{"key", row.key}, {"values", std::move(values)}});
-  }
-  return out;
+  return Json::array(c.parameters, [](const ParameterRow& row) -> Json {
+    return {{"key", row.key}, {"values", Json::array(row.values, or_null<std::string>)}};
+  });
 }
 
 Json difference_of(const std::optional<analysis::Difference>& d) {
@@ -99,16 +94,12 @@ Json difference_of(const std::optional<analysis::Difference>& d) {
 }
 
 Json channels_of(const Comparison& c) {
-  Json out = Json::array();
-  for (const ChannelRow& row : c.channels) {
-    Json differences = Json::array();
-    for (const auto& d : row.differences) differences.push_back(difference_of(d));
-    out.push_back({{"topic", row.channel.topic},
-                   {"field", row.channel.field},
-                   {"unit", row.unit},
-                   {"differences", std::move(differences)}});
-  }
-  return out;
+  return Json::array(c.channels, [](const ChannelRow& row) -> Json {
+    return {{"topic", row.channel.topic},
+            {"field", row.channel.field},
+            {"unit", row.unit},
+            {"differences", Json::array(row.differences, difference_of)}};
+  });
 }
 
 Json tables_of(const Comparison& c) {

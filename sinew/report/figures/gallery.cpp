@@ -484,8 +484,8 @@ Json json_of(const Exhibit& e, const Gallery& gallery) {
     }
   for (const Missing& m : figure.missing)
     out["curves"].push_back({{"curve", m.what}, {"kind", "unavailable"}, {"source", m.why}});
-  if (!e.claims.empty()) out["claims"] = Json::array();
-  for (const Claim& c : e.claims) out["claims"].push_back(json_of(c));
+  if (!e.claims.empty())
+    out["claims"] = Json::array(e.claims, [](const Claim& c) { return json_of(c); });
   return out;
 }
 
@@ -502,8 +502,8 @@ std::string index_json(const Gallery& gallery) {
       for (const Agreement v : all_verdicts)
         if (c != StatementClass::none) out["classes"][to_text(c)][to_text(v)] = t.of(c, v);
   }
-  out["figures"] = Json::array();
-  for (const Exhibit& e : gallery.exhibits) out["figures"].push_back(json_of(e, gallery));
+  const auto json = [&](const Exhibit& e) { return json_of(e, gallery); };
+  out["figures"] = Json::array(gallery.exhibits, json);
   return out.text(2) + "\n";
 }
 

@@ -54,10 +54,9 @@ Json json_of(const Axis& axis) { return {{"label", axis.name}, {"unit", axis.uni
 // Returns numbers with the digits that a picture can show, or the index of a channel's column.
 Json numbers_of(const std::vector<double>& numbers, const Channel& channel, Columns& columns) {
   if (!channel.is_empty()) return column_of(channel, columns);
-  Json out = Json::array();
-  for (const double x : numbers)
-    out.push_back(std::isfinite(x) ? Json::parse(fmt::format("{:.7g}", x)) : Json());
-  return out;
+  return Json::array(numbers, [](double x) {
+    return std::isfinite(x) ? Json::parse(fmt::format("{:.7g}", x)) : Json();
+  });
 }
 
 Json curve_of(const Curve& c, Columns& columns) {
@@ -73,64 +72,56 @@ Json curve_of(const Curve& c, Columns& columns) {
 }
 
 Json frames_of(const Scene& scene, Columns& columns) {
-  Json out = Json::array();
-  for (const Frame& f : scene.frames)
-    out.push_back({{"name", f.name},
-                   {"x", column_of(f.x, columns)},
-                   {"y", column_of(f.y, columns)},
-                   {"heading", column_of(f.heading, columns)}});
-  return out;
+  return Json::array(scene.frames, [&](const Frame& f) -> Json {
+    return {{"name", f.name},
+            {"x", column_of(f.x, columns)},
+            {"y", column_of(f.y, columns)},
+            {"heading", column_of(f.heading, columns)}};
+  });
 }
 
 Json shapes_of(const Scene& scene) {
   Json out;
-  out["links"] = Json::array();
-  for (const LinkShape& l : scene.links)
-    out["links"].push_back({{"frame", l.frame}, {"length", l.length}});
-  out["cams"] = Json::array();
-  for (const CamShape& c : scene.cams) {
-    Json outline = Json::array();
-    for (const Point p : c.outline) outline.push_back(point(p));
-    out["cams"].push_back({{"frame", c.frame}, {"outline", std::move(outline)}});
-  }
-  out["tendons"] = Json::array();
-  for (const TendonShape& c : scene.tendons)
-    out["tendons"].push_back({{"frame", c.frame}, {"from", point(c.from)}, {"to", point(c.to)}});
-  out["discs"] = Json::array();
-  for (const Disc& d : scene.discs)
-    out["discs"].push_back({{"frame", d.frame}, {"center", point(d.center)}, {"radius", d.radius}});
+  out["links"] = Json::array(scene.links, [](const LinkShape& l) -> Json {
+    return {{"frame", l.frame}, {"length", l.length}};
+  });
+  out["cams"] = Json::array(scene.cams, [](const CamShape& c) -> Json {
+    return {{"frame", c.frame}, {"outline", Json::array(c.outline, point)}};
+  });
+  out["tendons"] = Json::array(scene.tendons, [](const TendonShape& c) -> Json {
+    return {{"frame", c.frame}, {"from", point(c.from)}, {"to", point(c.to)}};
+  });
+  out["discs"] = Json::array(scene.discs, [](const Disc& d) -> Json {
+    return {{"frame", d.frame}, {"center", point(d.center)}, {"radius", d.radius}};
+  });
   return out;
 }
 
 Json muscles_of(const Scene& scene, Columns& columns) {
-  Json out = Json::array();
-  for (const MuscleShape& m : scene.muscles)
-    out.push_back({{"name", m.name},
-                   {"frame", m.frame},
-                   {"anchor", point(m.anchor)},
-                   {"direction", point(m.direction)},
-                   {"touch", point(m.touch)},
-                   {"count", m.count},
-                   {"longest", m.longest},
-                   {"length", column_of(m.length, columns)},
-                   {"diameter", column_of(m.diameter, columns)},
-                   {"pressure", column_of(m.pressure, columns)},
-                   {"inlet", column_of(m.inlet, columns)},
-                   {"exhaust", column_of(m.exhaust, columns)}});
-  return out;
+  return Json::array(scene.muscles, [&](const MuscleShape& m) -> Json {
+    return {{"name", m.name},
+            {"frame", m.frame},
+            {"anchor", point(m.anchor)},
+            {"direction", point(m.direction)},
+            {"touch", point(m.touch)},
+            {"count", m.count},
+            {"longest", m.longest},
+            {"length", column_of(m.length, columns)},
+            {"diameter", column_of(m.diameter, columns)},
+            {"pressure", column_of(m.pressure, columns)},
+            {"inlet", column_of(m.inlet, columns)},
+            {"exhaust", column_of(m.exhaust, columns)}};
+  });
 }
 
 Json cylinder_of(const CylinderShape& c, Columns& columns) {
-  Json out = {{"bore", c.bore},
-              {"stroke", c.stroke},
-              {"up", column_of(c.up, columns)},
-              {"down", column_of(c.down, columns)}};
-  for (const auto& [key, valves] :
-       {std::pair{"valves_up", &c.valves_up}, std::pair{"valves_down", &c.valves_down}}) {
-    out[key] = Json::array();
-    for (const Channel& v : *valves) out[key].push_back(column_of(v, columns));
-  }
-  return out;
+  const auto column = [&](const Channel& channel) { return column_of(channel, columns); };
+  return {{"bore", c.bore},
+          {"stroke", c.stroke},
+          {"up", column(c.up)},
+          {"down", column(c.down)},
+          {"valves_up", Json::array(c.valves_up, column)},
+          {"valves_down", Json::array(c.valves_down, column)}};
 }
 
 // Returns the columns of both components; null for no channel.
@@ -142,21 +133,21 @@ Json vector_of(const Channel& x, Columns& columns) {
 }  // namespace
 
 Json panels_json(const std::vector<Plot>& panels, Columns& columns) {
-  Json out = Json::array();
-  for (const Plot& p : panels) {
-    Json lines = Json::array();
-    for (const Curve& c : p.curves) {
-      lines.push_back({{"label", c.label},
-                       {"topic", c.y_channel.topic},
-                       {"column", column_of(c.y_channel, columns, Blob::As::line)},
-                       {"color", c.color},
-                       {"style", style_over_time(c)}});
-      if (c.y_channel.field != "value") lines.back()["field"] = c.y_channel.field;
-    }
-    out.push_back(
-        {{"group", p.group}, {"title", p.title}, {"unit", p.y.unit}, {"lines", std::move(lines)}});
-  }
-  return out;
+  const auto line_of = [&](const Curve& c) {
+    Json line = {{"label", c.label},
+                 {"topic", c.y_channel.topic},
+                 {"column", column_of(c.y_channel, columns, Blob::As::line)},
+                 {"color", c.color},
+                 {"style", style_over_time(c)}};
+    if (c.y_channel.field != "value") line["field"] = c.y_channel.field;
+    return line;
+  };
+  return Json::array(panels, [&](const Plot& p) -> Json {
+    return {{"group", p.group},
+            {"title", p.title},
+            {"unit", p.y.unit},
+            {"lines", Json::array(p.curves, line_of)}};
+  });
 }
 
 Json to_json(const Scene& scene, Columns& columns) {
@@ -172,13 +163,13 @@ Json to_json(const Scene& scene, Columns& columns) {
                     {"rear", t.rear},     {"front", t.front}, {"rollers", t.rollers}};
   }
   if (scene.cylinder) out["cylinder"] = cylinder_of(*scene.cylinder, columns);
-  out["feet"] = Json::array();
-  for (const FootShape& foot : scene.feet)
-    out["feet"].push_back({{"at", foot.at},
-                           {"path", vector_of(foot.path, columns)},
-                           {"desired", vector_of(foot.desired_path, columns)},
-                           {"force", vector_of(foot.force, columns)},
-                           {"contact", column_of(foot.contact, columns)}});
+  out["feet"] = Json::array(scene.feet, [&](const FootShape& foot) -> Json {
+    return {{"at", foot.at},
+            {"path", vector_of(foot.path, columns)},
+            {"desired", vector_of(foot.desired_path, columns)},
+            {"force", vector_of(foot.force, columns)},
+            {"contact", column_of(foot.contact, columns)}};
+  });
   return out;
 }
 
@@ -210,24 +201,20 @@ Json to_json(const Stand& stand, Columns& columns) {
 }
 
 Json charts_json(const std::vector<Plot>& charts, Columns& columns) {
-  Json out = Json::array();
-  for (const Plot& c : charts) {
-    Json curves = Json::array();
-    for (const Curve& curve : c.curves) curves.push_back(curve_of(curve, columns));
-    out.push_back({{"title", c.title},
-                   {"x", json_of(c.x)},
-                   {"y", json_of(c.y)},
-                   {"curves", std::move(curves)},
-                   {"note", c.note}});
-  }
-  return out;
+  const auto curve = [&](const Curve& c) { return curve_of(c, columns); };
+  return Json::array(charts, [&](const Plot& c) -> Json {
+    return {{"title", c.title},
+            {"x", json_of(c.x)},
+            {"y", json_of(c.y)},
+            {"curves", Json::array(c.curves, curve)},
+            {"note", c.note}};
+  });
 }
 
 Json to_json(const std::vector<Parameter>& parameters) {
-  Json out = Json::array();
-  for (const Parameter& p : parameters)
-    out.push_back(Json::array({p.key, p.value, p.mark, p.range, p.uncertainty, p.source}));
-  return out;
+  return Json::array(parameters, [](const Parameter& p) {
+    return Json::array({p.key, p.value, p.mark, p.range, p.uncertainty, p.source});
+  });
 }
 
 namespace {
@@ -249,47 +236,39 @@ std::vector<analysis::Span> shown(const std::vector<analysis::Span>& spans) {
 }  // namespace
 
 Json to_json(const std::vector<analysis::Warning>& warnings) {
-  Json out = Json::array();
-  for (const analysis::Warning& w : warnings) {
-    Json spans = Json::array();
-    for (const analysis::Span& s : shown(w.spans)) spans.push_back(Json::array({s.from, s.to}));
-    out.push_back({{"text", w.text}, {"spans", std::move(spans)}});
-  }
-  return out;
+  const auto span = [](const analysis::Span& s) { return Json::array({s.from, s.to}); };
+  return Json::array(warnings, [&](const analysis::Warning& w) -> Json {
+    return {{"text", w.text}, {"spans", Json::array(shown(w.spans), span)}};
+  });
 }
 
 Json to_json(const std::vector<analysis::MachineFault>& faults, double end) {
-  Json out = Json::array();
-  for (const analysis::MachineFault& f : faults)
-    out.push_back(
-        {{"of", f.of}, {"what", f.what}, {"from", f.begin}, {"to", std::fmin(f.end, end)}});
-  return out;
+  return Json::array(faults, [&](const analysis::MachineFault& f) -> Json {
+    return {{"of", f.of}, {"what", f.what}, {"from", f.begin}, {"to", std::fmin(f.end, end)}};
+  });
 }
 
 Json to_json(const std::vector<analysis::Verdict>& verdicts) {
-  Json out = Json::array();
-  for (const analysis::Verdict& v : verdicts)
-    out.push_back({{"key", v.key},
-                   {"reported", v.reported},
-                   {"ours", v.computed},
-                   {"accept", v.accept},
-                   {"source", v.source},
-                   {"class", to_text(v.statement_class)},
-                   {"wording", to_text(v.wording)},
-                   {"is", analysis::to_text(v.agreement)}});
-  return out;
+  return Json::array(verdicts, [](const analysis::Verdict& v) -> Json {
+    return {{"key", v.key},
+            {"reported", v.reported},
+            {"ours", v.computed},
+            {"accept", v.accept},
+            {"source", v.source},
+            {"class", to_text(v.statement_class)},
+            {"wording", to_text(v.wording)},
+            {"is", analysis::to_text(v.agreement)}};
+  });
 }
 
 Json to_json(const std::vector<PageChange>& changes) {
-  Json out = Json::array();
-  for (const PageChange& c : changes) {
-    Json one = {{"time", c.time}, {"key", c.key}};
-    one["value"] = c.release ? Json() : Json(c.value);
-    if (!c.release) one["unit"] = c.unit;
-    if (!c.leg.empty()) one["leg"] = c.leg;
-    out.push_back(std::move(one));
-  }
-  return out;
+  return Json::array(changes, [](const PageChange& c) {
+    Json out = {{"time", c.time}, {"key", c.key}};
+    out["value"] = c.release ? Json() : Json(c.value);
+    if (!c.release) out["unit"] = c.unit;
+    if (!c.leg.empty()) out["leg"] = c.leg;
+    return out;
+  });
 }
 
 Json to_json(const Blob::Layout& layout) {
@@ -314,10 +293,9 @@ Json to_json(const FitPage& fit, Columns& columns) {
   Json out = {{"format", "sinew.fit/1"}, {"title", fit.title}, {"version", fit.version}};
   out["data"] = fit.data;
   out["atmosphere"] = fit.atmosphere;
-  out["parts"] = Json::array();
-  for (const FitPart& part : fit.parts)
-    out["parts"].push_back(
-        {{"report", Json::parse(part.report)}, {"charts", charts_json(part.charts, columns)}});
+  out["parts"] = Json::array(fit.parts, [&](const FitPart& part) -> Json {
+    return {{"report", Json::parse(part.report)}, {"charts", charts_json(part.charts, columns)}};
+  });
   out["parameters"] = to_json(fit.values);
   return out;
 }

@@ -117,23 +117,21 @@ Json json_of(const analysis::EdgeComparison& c) {
                                {"topic", c.first->topic},
                                {"recorded", c.first->recorded},
                                {"replayed", c.first->replayed}};
-  out["valves"] = Json::array();
-  for (const analysis::ValveEdges& v : c.valves)
-    out["valves"].push_back({{"topic", v.topic},
-                             {"recorded", v.recorded},
-                             {"replayed", v.replayed},
-                             {"moved", v.moved},
-                             {"only_recorded", v.only_recorded},
-                             {"only_replayed", v.only_replayed},
-                             {"mean_move_s", v.mean_move},
-                             {"largest_move_s", v.largest_move}});
+  out["valves"] = Json::array(c.valves, [](const analysis::ValveEdges& v) -> Json {
+    return {{"topic", v.topic},
+            {"recorded", v.recorded},
+            {"replayed", v.replayed},
+            {"moved", v.moved},
+            {"only_recorded", v.only_recorded},
+            {"only_replayed", v.only_replayed},
+            {"mean_move_s", v.mean_move},
+            {"largest_move_s", v.largest_move}};
+  });
   return out;
 }
 
-Json json_of(const analysis::Divergence& p) {
+Json divergence_of(const analysis::Divergence& p) {
   const analysis::Difference& d = p.difference;
-  Json growth = Json::array();
-  for (const double rms : p.growth) growth.push_back(number_or_null(rms));
   return {{"topic", p.topic},
           {"field", p.field},
           {"unit", p.unit},
@@ -146,7 +144,7 @@ Json json_of(const analysis::Divergence& p) {
           {"largest_at_s", number_or_null(d.at)},
           {"span", d.span},
           {"correlation", number_or_null(d.correlation)},
-          {"rms_by_tenth", std::move(growth)}};
+          {"rms_by_tenth", Json::array(p.growth, number_or_null)}};
 }
 
 // --- text ---
@@ -233,8 +231,7 @@ std::string to_json(const Replayed& r) {
   if (r.of == ReplayOf::plant) {
     out["band"] = r.band;
     out["duties"] = r.rebuilt;
-    out["channels"] = Json::array();
-    for (const analysis::Divergence& p : r.divergences) out["channels"].push_back(json_of(p));
+    out["channels"] = Json::array(r.divergences, divergence_of);
   }
   if (!r.cause.empty()) out["ended_early"] = r.cause;
   if (r.folder) out["folder"] = r.folder->string();

@@ -1,12 +1,9 @@
 #include "sinew/tune/page/study_view.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <sstream>
-#include <string>
 #include <string_view>
 
 #include "sinew/config/diagnostics.h"
@@ -195,23 +192,22 @@ const char* to_text(StudyColumn::Role role) {
 
 // Rows are lists, since there may be ten thousand.
 Json json_of(const std::vector<StudyRow>& rows) {
-  Json out = Json::array();
-  for (const StudyRow& row : rows)
-    out.push_back({row.number, row.ok ? 1 : 0, row.generation, row.violation, row.cells});
-  return out;
+  return Json::array(rows, [](const StudyRow& row) -> Json {
+    return {row.number, row.ok ? 1 : 0, row.generation, row.violation, row.cells};
+  });
 }
 
 Json json_of(const StudyView& study) {
-  Json columns = Json::array();
-  for (const StudyColumn& c : study.columns)
-    columns.push_back({{"heading", c.heading},
-                       {"number", c.number},
-                       {"role", to_text(c.role)},
-                       {"maximize", c.maximize},
-                       {"set", c.set || c.role == StudyColumn::Role::parameter}});
-  Json cases = Json::array();
-  for (const Case& one : study.cases)
-    cases.push_back({{"name", one.name}, {"experiment", one.experiment}, {"sets", one.sets}});
+  const auto column = [](const StudyColumn& c) -> Json {
+    return {{"heading", c.heading},
+            {"number", c.number},
+            {"role", to_text(c.role)},
+            {"maximize", c.maximize},
+            {"set", c.set || c.role == StudyColumn::Role::parameter}};
+  };
+  const auto case_of = [](const Case& one) -> Json {
+    return {{"name", one.name}, {"experiment", one.experiment}, {"sets", one.sets}};
+  };
   return {{"title", study.title},
           {"kind", study.kind},
           {"experiment", study.experiment},
@@ -219,10 +215,10 @@ Json json_of(const StudyView& study) {
           {"version", study.version},
           {"expected", study.expected},
           {"sets", study.sets},
-          {"cases", std::move(cases)},
+          {"cases", Json::array(study.cases, case_of)},
           {"allow_unreachable", study.allow_unreachable},
           {"asked", study.request},
-          {"columns", std::move(columns)},
+          {"columns", Json::array(study.columns, column)},
           {"rows", json_of(study.rows)}};
 }
 
