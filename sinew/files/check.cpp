@@ -19,6 +19,7 @@
 #include "sinew/log/reader.h"
 #include "sinew/recording/mapping.h"
 #include "sinew/report/figures/labels.h"
+#include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/run_storage.h"
 #include "sinew/run/setup/buildable.h"
@@ -66,17 +67,10 @@ void add_source_warnings(const Problems& unsourced, Finding& out) {
 
 // Returns the values in columns, " key value file:line".
 std::string table_of(const std::vector<UnsourcedValue>& values) {
-  if (values.empty()) return "";
-  std::size_t key = std::string_view("key").size(), value = std::string_view("value").size();
-  for (const UnsourcedValue& one : values) {
-    key = std::max(key, one.key.size());
-    value = std::max(value, one.value.size());
-  }
-  std::string out = fmt::format("  {:<{}}  {:<{}}  where\n", "key", key, "value", value);
+  report::TextTable table({"key", "value", "where"});
   for (const UnsourcedValue& one : values)
-    out += fmt::format("  {:<{}}  {:<{}}  {}:{}\n", one.key, key, one.value, value, one.file,
-                       one.line);
-  return out;
+    table.add({one.key, one.value, fmt::format("{}:{}", one.file, one.line)});
+  return table.empty() ? "" : table.text("  ");
 }
 
 // Reports each fault and its time, and warns of faults without effect; why(fault) returns the

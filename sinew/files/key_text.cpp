@@ -15,38 +15,29 @@ namespace sinew::files {
 
 namespace {
 
-// Title of a kind, and the usual path of its files; empty for the keys of all files.
-struct Title {
-  std::string_view words, files;
+// A kind of file: its title, the usual path of its files, and a note about keys that a file of that
+// kind has in other files.
+struct Kind {
+  std::string_view name, title, files, note = "";
 };
-
-Title title_of(std::string_view kind) {
-  if (kind == "any") return {"Every file", ""};
-  if (kind == "robot") return {"Robot", "robots/*/robot.toml"};
-  if (kind == "actuator") return {"Actuator", "robots/*/actuator.toml"};
-  if (kind == "valves") return {"Valves", "robots/*/valves.toml"};
-  if (kind == "wiring") return {"Wiring", "robots/*/wiring.toml"};
-  if (kind == "experiment") return {"Experiment", "experiments/*.toml"};
-  if (kind == "rig") return {"Rig, the test stand of one muscle", "experiments/rig/*.toml"};
-  if (kind == "plan") return {"Plan of a sweep or a sensitivity", "studies/*.toml"};
-  if (kind == "mapping") return {"Mapping of a recording's columns", "*.toml"};
-  if (kind == "settings") return {"Settings of a user", "~/.config/sinew/settings.toml"};
-  return {"Tuning", "studies/*.toml"};
-}
-
-// Returns a note about keys that a file of that kind has in other files.
-std::string note_of(std::string_view kind) {
-  if (kind == "actuator")
-    return "In an actuator file the keys omit actuator.<name>: [braid], not [actuator.bpa.braid].";
-  if (kind == "experiment")
-    return "An experiment may change every key of its robot, its actuators, valves and wiring.";
-  if (kind == "robot" || kind == "rig")
-    return "Actuators and valves can be in this file or in files of their own.";
-  if (kind == "any")
-    return "source, fit, guess and range are keys of { value = … }, or of a table for all its "
-           "values.";
-  return "";
-}
+constexpr Kind kinds[] = {
+    {"any", "Every file", "",
+     "source, fit, guess and range are keys of { value = … }, or of a table for all its values."},
+    {"robot", "Robot", "robots/*/robot.toml",
+     "Actuators and valves can be in this file or in files of their own."},
+    {"actuator", "Actuator", "robots/*/actuator.toml",
+     "In an actuator file the keys omit actuator.<name>: [braid], not [actuator.bpa.braid]."},
+    {"valves", "Valves", "robots/*/valves.toml"},
+    {"wiring", "Wiring", "robots/*/wiring.toml"},
+    {"experiment", "Experiment", "experiments/*.toml",
+     "An experiment may change every key of its robot, its actuators, valves and wiring."},
+    {"rig", "Rig, the test stand of one muscle", "experiments/rig/*.toml",
+     "Actuators and valves can be in this file or in files of their own."},
+    {"plan", "Plan of a sweep or a sensitivity", "studies/*.toml"},
+    {"tuning", "Tuning", "studies/*.toml"},
+    {"mapping", "Mapping of a recording's columns", "*.toml"},
+    {"settings", "Settings of a user", "~/.config/sinew/settings.toml"},
+};
 
 bool is_container(const Key& key) {
   return key.type == KeyType::table || key.type == KeyType::tables || key.type == KeyType::list;
@@ -65,34 +56,14 @@ std::string polynomial_text(const Key& key) {
 }
 
 std::string holds(const Key& key) {
-  const std::string range = range_of(key);
-  switch (key.type) {
-    case KeyType::number:
-      return quantity_text(key);
-    case KeyType::numbers:
-      return "list: " + quantity_text(key);
-    case KeyType::polynomial:
-      return polynomial_text(key);
-    case KeyType::whole:
-      return range.empty() ? "whole number" : "whole number, " + range;
-    case KeyType::flag:
-      return "true, false";
-    case KeyType::text:
-      return "text";
-    case KeyType::texts:
-      return "list of texts";
-    case KeyType::choice:
-      return "a word";
-    case KeyType::table:
-      return "table";
-    case KeyType::tables:
-      return "tables by name";
-    case KeyType::list:
-      return "list of tables";
-    case KeyType::item:
-      break;  // not a key
-  }
-  return "";
+  constexpr std::string_view words[] = {
+      "number",        "list of numbers", "list",  "whole number",   "true, false",    "text",
+      "list of texts", "a word",          "table", "tables by name", "list of tables", ""};
+  if (key.type == KeyType::number) return quantity_text(key);
+  if (key.type == KeyType::numbers) return "list: " + quantity_text(key);
+  if (key.type == KeyType::polynomial) return polynomial_text(key);
+  const std::string word(words[static_cast<std::size_t>(key.type)]), range = range_of(key);
+  return key.type == KeyType::whole && !range.empty() ? word + ", " + range : word;
 }
 
 std::string stands_instead(const Key& key) {
@@ -172,20 +143,16 @@ std::string text_of(const std::vector<Key>& keys, std::size_t width) {
     for (const Key& key : keys)
       if (key.kind == kind) table.add({key.path, holds(key), stands_instead(key), line_of(key)});
     if (table.empty()) continue;
-    const Title title = title_of(kind);
-    out += fmt::format("{}{}{}{}\n", out.empty() ? "" : "\n", title.words,
-                       title.files.empty() ? "" : ": ", title.files);
+    const Kind& its = *std::ranges::find(kinds, kind, &Kind::name);
+    out += fmt::format("{}{}{}{}\n", out.empty() ? "" : "\n", its.title,
+                       its.files.empty() ? "" : ": ", its.files);
     out += table.text_within(width);
-    if (const std::string note = note_of(kind); !note.empty()) out += note + "\n";
+    if (!its.note.empty()) out += fmt::format("{}\n", its.note);
   }
   return out;
 }
 
-std::string json_of(const std::vector<Key>& keys) {
-  Json out = Json::array();
-  for (const Key& key : keys) out.push_back(to_json(key));
-  return out.text();
-}
+std::string json_of(const std::vector<Key>& keys) { return Json::array(keys, to_json).text(); }
 
 std::string page_of_keys() {
   std::string out =
@@ -198,10 +165,10 @@ std::string page_of_keys() {
       "of tables. [59] is an equation of the thesis; B.1, appendix A and thesis 6.5 are sections. "
       "The program generates this page from the tables with which it reads files.\n";
   for (const std::string& kind : key_kinds()) {
-    const Title title = title_of(kind);
-    out += fmt::format("\n## {}\n\n", title.words);
-    const std::string note = cell(note_of(kind));
-    if (!title.files.empty()) out += fmt::format("`{}`.{}", title.files, note.empty() ? "" : " ");
+    const Kind& its = *std::ranges::find(kinds, kind, &Kind::name);
+    out += fmt::format("\n## {}\n\n", its.title);
+    const std::string note = cell(its.note);
+    if (!its.files.empty()) out += fmt::format("`{}`.{}", its.files, note.empty() ? "" : " ");
     out += note + "\n\n";
     out += "| key | holds | default | what it is |\n| --- | --- | --- | --- |\n";
     for (const Key& key : keys_of(kind))

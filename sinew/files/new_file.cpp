@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <numbers>
 #include <set>
-#include <string_view>
 
 #include <fmt/format.h>
 

@@ -5,7 +5,6 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/node.h"
 #include "sinew/config/reader.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
@@ -144,9 +143,8 @@ std::string text_of(const Values& v, const units::ShownUnits* shown) {
 }
 
 std::string json_of(const Values& v) {
-  Json out = Json::array();
-  for (const config::Origin& origin : v.origins) out.push_back(to_json(origin, v.in_si));
-  return out.text();
+  const auto json = [&](const config::Origin& origin) { return to_json(origin, v.in_si); };
+  return Json::array(v.origins, json).text();
 }
 
 }  // namespace sinew::files

@@ -56,8 +56,8 @@ std::vector<std::size_t> TextTable::widths() const {
   return out;
 }
 
-std::string TextTable::line(const std::vector<std::string>& row, std::string_view indent) const {
-  const std::vector<std::size_t> width = widths();
+std::string TextTable::line(const std::vector<std::string>& row,
+                            const std::vector<std::size_t>& width, std::string_view indent) const {
   std::string out(indent);
   for (std::size_t i = 0; i < row.size(); ++i) {
     const std::string padding(width[i] - columns(row[i]), ' ');
@@ -69,8 +69,9 @@ std::string TextTable::line(const std::vector<std::string>& row, std::string_vie
 }
 
 std::string TextTable::text(std::string_view indent) const {
+  const std::vector<std::size_t> width = widths();
   std::string out;
-  for (const auto& row : rows_) out += line(row, indent);
+  for (const auto& row : rows_) out += line(row, width, indent);
   return out;
 }
 
@@ -99,7 +100,7 @@ std::string TextTable::text_within(std::size_t width) const {
       row.back() = beside ? last.front() : "";
       if (beside) last.erase(last.begin());
     }
-    out += line(row, "");
+    out += line(row, all, "");
     for (const std::string& rest : last) out += std::string(from, ' ') + rest + '\n';
   }
   return out;

@@ -31,7 +31,8 @@ class TextTable {
 
  private:
   std::vector<std::size_t> widths() const;
-  std::string line(const std::vector<std::string>& row, std::string_view indent) const;
+  std::string line(const std::vector<std::string>& row, const std::vector<std::size_t>& width,
+                   std::string_view indent) const;
 
   std::vector<std::vector<std::string>> rows_;  // titles first
   std::vector<Align> align_;
