@@ -10,7 +10,6 @@
 #include "sinew/config/gains.h"
 #include "sinew/config/shipped.h"
 #include "sinew/units/letters.h"
-#include "sinew/units/quantity.h"
 
 namespace sinew::config {
 

@@ -5,12 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/units/field.h"
 #include "sinew/units/quantity.h"
 #include "sinew/units/ranges.h"
 

@@ -2,10 +2,8 @@
 
 #include <cstdlib>
 
-#include "sinew/config/node.h"
 #include "sinew/config/user_settings.h"
 #include "sinew/units/letters.h"
-#include "sinew/units/quantity.h"
 
 namespace sinew::config {
 

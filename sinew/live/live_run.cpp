@@ -8,15 +8,12 @@
 #include <map>
 #include <thread>
 
-#include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/live/live_view.h"
 #include "sinew/live/request.h"
-#include "sinew/live/server.h"
 #include "sinew/report/page/page.h"
 #include "sinew/run/controllers/columns.h"
 #include "sinew/run/folder/page.h"
-#include "sinew/run/folder/run_storage.h"
 
 namespace sinew::live {
 

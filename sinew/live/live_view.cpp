@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "sinew/json/json.h"
-#include "sinew/live/request.h"
 #include "sinew/report/page/page.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/signals/tick.h"

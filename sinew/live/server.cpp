@@ -19,15 +19,11 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <chrono>
 #include <csignal>
-#include <cstdint>
 #include <deque>
 #include <list>
 #include <map>
-#include <memory>
 #include <optional>
 #include <stdexcept>
-#include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 

@@ -7,7 +7,6 @@
 #include <memory>
 #include <numeric>
 
-#include "sinew/log/file.h"
 #include "sinew/log/mcap.h"
 #include "sinew/log/message.h"
 #include "sinew/log/steady.h"

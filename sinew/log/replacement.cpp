@@ -9,8 +9,6 @@
 #include <cstdio>
 #include <optional>
 
-#include "sinew/log/file.h"
-
 namespace sinew::log {
 namespace {
 

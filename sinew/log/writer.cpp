@@ -12,11 +12,9 @@
 #include <fmt/format.h>
 
 #include "sinew/json/json.h"
-#include "sinew/log/file.h"
 #include "sinew/log/mcap.h"
 #include "sinew/log/message.h"
 #include "sinew/log/replacement.h"
-#include "sinew/log/steady.h"
 
 namespace sinew::log {
 

@@ -4,17 +4,11 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <span>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/recording/columns.h"
-#include "sinew/recording/mapping.h"
-#include "sinew/recording/recorded.h"
 #include "sinew/recording/stamp.h"
 #include "sinew/units/quantity.h"
 #include "sinew/units/spelling.h"

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "sinew/config/diagnostics.h"
 #include "sinew/units/quantity.h"
 #include "sinew/units/spelling.h"
 

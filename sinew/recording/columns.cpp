@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "sinew/config/diagnostics.h"
 #include "sinew/config/utf8.h"
 #include "sinew/units/letters.h"
 #include "sinew/units/spelling.h"

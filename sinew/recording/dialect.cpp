@@ -6,18 +6,14 @@
 #include <deque>
 #include <map>
 #include <optional>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/utf8.h"
-#include "sinew/recording/rows.h"
 #include "sinew/recording/stamp.h"
 #include "sinew/units/letters.h"
 #include "sinew/units/quantity.h"
-#include "sinew/units/spelling.h"
 
 namespace sinew::recording {
 

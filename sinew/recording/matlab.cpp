@@ -7,8 +7,6 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
-#include <string>
-#include <string_view>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/host/module.h"

@@ -6,22 +6,15 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <memory>
 #include <numeric>
 #include <optional>
 #include <set>
-#include <span>
 #include <stdexcept>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/recording/clock.h"
 #include "sinew/recording/columns.h"
 #include "sinew/recording/grid.h"
-#include "sinew/recording/number.h"
 #include "sinew/recording/parts.h"
 #include "sinew/recording/recorded.h"
 #include "sinew/recording/selected_rows.h"

@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 #include <set>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/recording/clock.h"
-#include "sinew/recording/columns.h"
 #include "sinew/recording/grid.h"
 #include "sinew/recording/parts.h"
 #include "sinew/recording/selected_rows.h"

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
-#include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
 #include "sinew/recording/columns.h"
 #include "sinew/units/letters.h"

@@ -9,7 +9,6 @@
 // each of its channels. Cells of a condition may also be equal.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <optional>

@@ -4,7 +4,6 @@
 //   joints.hip.tracking_rms_rad < 5 deg            true or false
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -12,7 +12,6 @@
 #include "sinew/experiment/experiment.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/tune/study.fields.h"
-#include "sinew/tune/sweep.h"
 #include "sinew/units/quantity.h"
 
 namespace sinew::tune {

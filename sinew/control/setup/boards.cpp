@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 
-#include "sinew/control/setup/joint_controllers.h"
 #include "sinew/control/setup/supervision.h"
 
 namespace sinew::control {

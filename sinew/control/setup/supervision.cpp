@@ -7,7 +7,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "sinew/control/setup/joint_controllers.h"
 #include "sinew/robot/actuator_of.h"
 
 namespace sinew::control {

@@ -2,7 +2,6 @@
 #include <matio.h>
 
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <vector>
 

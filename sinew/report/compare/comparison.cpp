@@ -4,17 +4,12 @@
 #include <cmath>
 #include <iterator>
 #include <set>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "sinew/analysis/summary.h"
 #include "sinew/config/compose.h"
 #include "sinew/report/page/content.h"
-#include "sinew/report/page/stand.h"
-#include "sinew/signals/table.h"
 #include "sinew/units/quantity.h"
 
 namespace sinew::report {

@@ -4,16 +4,10 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "sinew/analysis/record/derived.h"
-#include "sinew/analysis/record/machine.h"
-#include "sinew/analysis/record/record.h"
 #include "sinew/report/page/panels.h"
 #include "sinew/report/page/parameters.h"
 #include "sinew/report/page/plot.h"

@@ -8,8 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "sinew/analysis/record/derived.h"
-#include "sinew/analysis/summary.h"
 #include "sinew/log/deflate.h"
 #include "sinew/report/page/page.h"
 #include "sinew/robot/legs.h"

@@ -1,8 +1,5 @@
 #include "sinew/report/page/fit_page.h"
 
-#include "sinew/report/page/content.h"
-#include "sinew/report/page/page.h"
-
 namespace sinew::report {
 
 Content content(const FitPage& fit) {

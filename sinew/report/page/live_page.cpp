@@ -7,7 +7,6 @@
 #include "sinew/actuator/braid.h"
 #include "sinew/analysis/record/derived.h"
 #include "sinew/log/deflate.h"
-#include "sinew/report/page/content.h"
 #include "sinew/report/page/scene.h"
 #include "sinew/robot/actuator_of.h"
 #include "sinew/robot/legs.h"

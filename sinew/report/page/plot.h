@@ -4,10 +4,8 @@
 // no name. A page converts the units; a printed figure is in the units of its axes.
 #pragma once
 
-#include <cstdint>
 #include <limits>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "sinew/signals/table.h"

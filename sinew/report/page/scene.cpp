@@ -7,7 +7,6 @@
 
 #include "sinew/actuator/braid.h"
 #include "sinew/robot/actuator_of.h"
-#include "sinew/robot/kinematics.h"
 #include "sinew/robot/legs.h"
 
 namespace sinew::report {

@@ -1,7 +1,6 @@
 #include "sinew/run/bring_up/wires.h"
 
 #include <algorithm>
-#include <vector>
 
 #include <fmt/format.h>
 

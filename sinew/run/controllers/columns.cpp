@@ -5,7 +5,6 @@
 #include <type_traits>
 
 #include "sinew/control/setup/joint_controllers.h"
-#include "sinew/control/setup/supervision.h"
 #include "sinew/experiment/faults.h"
 #include "sinew/robot/legs.h"
 

@@ -1,7 +1,6 @@
 #include "sinew/run/controllers/drive.h"
 
 #include <algorithm>
-#include <cmath>
 #include <type_traits>
 #include <utility>
 

@@ -6,8 +6,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
-#include <span>
 #include <vector>
 
 #include "sinew/actuator/bundle.h"

@@ -15,7 +15,6 @@
 #include "sinew/log/reader.h"
 #include "sinew/report/figures/figure_layout.h"
 #include "sinew/report/figures/overlay.h"
-#include "sinew/run/folder/figure_files.h"
 #include "sinew/run/folder/run_log.h"
 
 namespace sinew::run {

@@ -7,11 +7,9 @@
 #include <vector>
 
 #include "sinew/analysis/align/align.h"
-#include "sinew/report/figures/gnuplot.h"
 #include "sinew/report/figures/run_figures.h"
 #include "sinew/run/folder/figure_files.h"
 #include "sinew/run/folder/notices.h"
-#include "sinew/run/folder/run_folder.h"
 
 namespace sinew::run {
 

@@ -5,20 +5,16 @@
 #include <fstream>
 #include <set>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/operating_point.h"
-#include "sinew/analysis/verdict/compare.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/json/json.h"
-#include "sinew/report/figures/gnuplot.h"
 #include "sinew/report/text/text_table.h"
-#include "sinew/robot/legs.h"
 #include "sinew/run/folder/files.h"
 
 namespace sinew::run {

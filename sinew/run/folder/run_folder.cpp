@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <vector>
 
 #include "sinew/run/folder/figure_files.h"
-#include "sinew/run/folder/files.h"
 
 namespace sinew::run {
 

@@ -2,18 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/config/compose.h"
-#include "sinew/config/node.h"
 #include "sinew/experiment/measured.h"
 #include "sinew/run/folder/imported_run.h"
 #include "sinew/run/folder/page.h"
-#include "sinew/run/folder/run_folder.h"
-#include "sinew/run/folder/run_log.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/remote_boards.h"
-#include "sinew/run/simulation/run.h"
 
 namespace sinew::run {
 

@@ -1,9 +1,7 @@
 #include "sinew/run/muscle/muscle_setup.h"
 
-#include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <stdexcept>
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"

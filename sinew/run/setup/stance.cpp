@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "sinew/actuator/body.h"
-#include "sinew/air/lanes.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
 #include "sinew/json/json.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "sinew/port/recorded/recorded.h"
-#include "sinew/run/controllers/high_level.h"
 #include "sinew/run/setup/machine_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/faulty_port.h"

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "sinew/host/realtime.h"
 #include "sinew/host/side_by_side.h"
 #include "sinew/port/recorded/recorded.h"
 #include "sinew/run/simulation/clock.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 #include <fmt/format.h>
 
@@ -13,7 +12,6 @@
 #include "sinew/config/reader.h"
 #include "sinew/host/module.h"
 #include "sinew/run/setup/buildable.h"
-#include "sinew/tune/optimizer/module/methods.h"
 #include "sinew/tune/optimizer/tuning.fields.h"
 #include "sinew/units/quantity.h"
 #include "sinew/units/shell.h"

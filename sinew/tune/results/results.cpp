@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <filesystem>
-#include <functional>
 #include <map>
 #include <set>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -19,8 +15,6 @@
 #include "sinew/json/json.h"
 #include "sinew/log/file.h"
 #include "sinew/run/folder/files.h"
-#include "sinew/tune/results/database.h"
-#include "sinew/tune/results/request.h"
 #include "sinew/units/hash.h"
 
 namespace sinew::tune {
