@@ -104,16 +104,9 @@ Node make_flag(std::string_view key, bool value, Location where) {
 }
 
 std::string shown(const Node& node) {
-  switch (node.kind) {
-    case Node::Kind::text:
-      return in_quotes(node.text);
-    case Node::Kind::table:
-      return "a table";
-    case Node::Kind::array:
-      return "a list";
-    default:
-      return written(node);
-  }
+  if (node.kind == Node::Kind::text) return in_quotes(node.text);
+  const bool holds_others = node.kind == Node::Kind::table || node.kind == Node::Kind::array;
+  return holds_others ? std::string(kind_name(node.kind)) : written(node);
 }
 
 std::string written(const Node& node) {
@@ -135,21 +128,9 @@ std::string written(const Node& node) {
 }
 
 std::string_view kind_name(Node::Kind kind) {
-  switch (kind) {
-    case Node::Kind::table:
-      return "a table";
-    case Node::Kind::array:
-      return "a list";
-    case Node::Kind::text:
-      return "text";
-    case Node::Kind::integer:
-      return "a whole number";
-    case Node::Kind::real:
-      return "a number";
-    case Node::Kind::flag:
-      return "true or false";
-  }
-  return "";
+  constexpr std::string_view words[] = {"a table",        "a list",   "text",
+                                        "a whole number", "a number", "true or false"};
+  return words[static_cast<std::size_t>(kind)];
 }
 
 void merge(Node& base, const Node& over) {

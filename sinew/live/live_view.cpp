@@ -87,37 +87,19 @@ using What = gait::Setting::What;
 
 constexpr double whole_turn = 2 * std::numbers::pi;  // [rad]
 
-std::string_view word(What what) {
-  switch (what) {
-    case What::angle:
-      return "desired angle";
-    case What::stiffness:
-      return "desired stiffness";
-    case What::angle_gain:
-      return "angle gain";
-    case What::stiffness_gain:
-      return "stiffness gain";
-    case What::velocity_gain:
-      return "velocity gain";
-  }
-  return "";
-}
-
-// Returns the range of a slider if the plan has only zeros: about the largest value of the thesis.
-double usual(What what) {
-  switch (what) {
-    case What::angle:
-      return whole_turn;
-    case What::stiffness:
-      return 4;  // [N m/rad]
-    case What::angle_gain:
-      return 0.01;  // [1/count]
-    case What::stiffness_gain:
-      return 0.05;  // [1/(N m/rad)]
-    case What::velocity_gain:
-      return 5e-4;  // [s/count]
-  }
-  return 1;
+// What the page shows of a kind of setting: its name, and the range of its slider if the plan has
+// only zeros, about the largest value of the thesis.
+struct Shown {
+  std::string_view name;
+  double usual;
+};
+const Shown& shown(What what) {
+  static constexpr Shown of_kind[] = {{"desired angle", whole_turn},  // [rad]
+                                      {"desired stiffness", 4},       // [N m/rad]
+                                      {"angle gain", 0.01},           // [1/count]
+                                      {"stiffness gain", 0.05},       // [1/(N m/rad)]
+                                      {"velocity gain", 5e-4}};       // [s/count]
+  return of_kind[static_cast<std::size_t>(what)];
 }
 
 const gait::Profile& profile_of(const gait::JointPhase& phase, What what) {
@@ -173,9 +155,9 @@ std::string LiveView::controls() const {
     const double most = largest(experiment_.plan, s);
     out.push_back({{"key", s.key},
                    {"joint", experiment_.plan.joints[s.joint].name},
-                   {"what", word(s.what)},
+                   {"what", shown(s.what).name},
                    {"unit", s.unit},
-                   {"most", most > 0 ? 3 * most : usual(s.what)}});
+                   {"most", most > 0 ? 3 * most : shown(s.what).usual}});
   }
   return Json{{"controls", std::move(out)}}.text();
 }

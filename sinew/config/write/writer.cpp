@@ -39,9 +39,8 @@ std::string inline_value(const Node& node) {
     case Node::Kind::real:
       return toml_real(node.real);
     case Node::Kind::integer:
-      return std::to_string(node.integer);
     case Node::Kind::flag:
-      return node.flag ? "true" : "false";
+      return written(node);
     default:
       break;
   }

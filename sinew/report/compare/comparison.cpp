@@ -168,17 +168,8 @@ std::string ComparedRun::verdict_of(const std::string& key) const {
 }
 
 std::string_view to_text(Align align) {
-  switch (align) {
-    case Align::start:
-      return "start";
-    case Align::sequence:
-      return "sequence";
-    case Align::event:
-      return "event";
-    case Align::correlation:
-      break;
-  }
-  return "correlation";
+  constexpr std::string_view names[] = {"start", "sequence", "event", "correlation"};
+  return names[static_cast<std::size_t>(align)];
 }
 
 Comparison compare(std::vector<NamedRun> runs, const AlignOptions& options) {

@@ -131,17 +131,8 @@ std::string csv(const Sheet& sheet) {
 }
 
 std::string_view to_text(Curve::Kind kind) {
-  switch (kind) {
-    case Curve::Kind::computed:
-      return "computed";
-    case Curve::Kind::measured:
-      return "measured";
-    case Curve::Kind::desired:
-      return "desired";
-    case Curve::Kind::synthetic:
-      return "synthetic";
-  }
-  return "";
+  constexpr std::string_view names[] = {"computed", "measured", "desired", "synthetic"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 Curve once(const Curve& path) {

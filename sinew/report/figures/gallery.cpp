@@ -216,21 +216,9 @@ bool holds_kind(const Figure& figure, Curve::Kind kind) {
 
 // Returns the name of a class in the page.
 std::string_view name_of(StatementClass c) {
-  switch (c) {
-    case StatementClass::predicted:
-      return "predicted";
-    case StatementClass::fitted:
-      return "fitted";
-    case StatementClass::put_in:
-      return "put_in";
-    case StatementClass::by_construction:
-      return "by_construction";
-    case StatementClass::code_against_code:
-      return "code_against_code";
-    case StatementClass::none:
-      break;
-  }
-  return "none";
+  constexpr std::string_view names[] = {"none",   "predicted",       "fitted",
+                                        "put_in", "by_construction", "code_against_code"};
+  return names[static_cast<std::size_t>(c)];
 }
 
 std::string_view class_of(Agreement verdict) {

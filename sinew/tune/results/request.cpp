@@ -144,26 +144,6 @@ StudyRequest request_of(const Sweep& s) {
           .cases = s.cases};
 }
 
-const char* to_text(Column::Role role) {
-  switch (role) {
-    case Column::Role::parameter:
-      return "parameter";
-    case Column::Role::circumstance:
-      return "circumstance";
-    case Column::Role::figure:
-      return "figure";
-    case Column::Role::maximize:
-      return "maximize";
-    case Column::Role::minimize:
-      return "minimize";
-    case Column::Role::limit:
-      return "limit";
-    case Column::Role::other:
-      break;
-  }
-  return "other";
-}
-
 std::string hash_of(const StudyRequest& request) {
   return fmt::format("{:016x}", units::hash(std::string_view(request.text)));
 }

@@ -6,9 +6,11 @@
 // searched and reported. Paths and comments of the files are not part of the text.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sinew/tune/sweep.h"
@@ -28,8 +30,9 @@ struct Column {
   bool number = true;  // its cells are numbers, or empty
   Role role = Role::other;
 };
-// Returns the role's name in the study's file.
-const char* to_text(Column::Role role);
+// Names of the roles in the study's file.
+inline constexpr std::array<std::string_view, 7> role_names = {
+    "parameter", "circumstance", "figure", "maximize", "minimize", "limit", "other"};
 
 struct StudyRequest {
   std::string text;             // one fact per line

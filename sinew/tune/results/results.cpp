@@ -246,20 +246,19 @@ void make_headings(Database& database, const char* table, const std::vector<Colu
         .bind(columns[i].heading)
         .bind(names[i])
         .bind(std::int64_t{columns[i].number})
-        .bind(std::string(to_text(columns[i].role)))
+        .bind(std::string(role_names[static_cast<std::size_t>(columns[i].role)]))
         .to_the_end();
 }
 
 std::vector<Column> columns_of(Database& database, const char* table) {
-  constexpr int last_role = static_cast<int>(Column::Role::other);
   std::vector<Column> out;
   Statement headings(database,
                      fmt::format("SELECT heading, is_number, role FROM {} ORDER BY number", table));
   while (headings.step()) {
     out.push_back({headings.text(0), headings.number(1) != 0});
-    for (int role = 0; role < last_role; ++role)
-      if (headings.text(2) == to_text(static_cast<Column::Role>(role)))
-        out.back().role = static_cast<Column::Role>(role);
+    const auto role = std::ranges::find(role_names, headings.text(2));
+    if (role != role_names.end())
+      out.back().role = static_cast<Column::Role>(role - role_names.begin());
   }
   return out;
 }
