@@ -47,17 +47,12 @@ std::string value_of(const std::vector<Parameter>& parameters, std::string_view 
 void describe(ComparedRun& run, const analysis::Machine& machine) {
   const analysis::Record record(run.logged, machine, &run.derived);
   run.phases = phases_of(record, machine);
-  Channels channels;
-  channels.add(run.logged);
-  channels.add(run.derived);
-  if (machine.stand) {
-    run.stand = stand(channels, machine, run.drawn);
-    channels.add(run.drawn);
-    run.charts = stand_charts(channels, run.stand);
-  } else {
-    run.scene = scene(channels, machine, record, run.drawn);
-  }
-  run.panels = panels(channels, machine);
+  Drawing drawing(run.logged, run.derived, machine, record);
+  run.panels = panels(drawing.channels, machine);
+  if (machine.stand) run.charts = stand_charts(drawing.channels, drawing.stand);
+  run.drawn = std::move(drawing.drawn);
+  run.scene = std::move(drawing.scene);
+  run.stand = std::move(drawing.stand);
 }
 
 // Adds the results of the analysis, from the samples at their original times.

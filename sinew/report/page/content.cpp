@@ -153,6 +153,17 @@ std::string to_base64(std::string_view bytes) {
   return out;
 }
 
+Drawing::Drawing(const signals::Table& logged, const signals::Table& derived,
+                 const analysis::Machine& machine, const analysis::Record& record) {
+  channels.add(logged);
+  channels.add(derived);
+  if (machine.stand)
+    stand = report::stand(channels, machine, drawn);
+  else
+    scene = report::scene(channels, machine, record, drawn);
+  channels.add(drawn);
+}
+
 namespace {
 
 double end_of(const Channels& channels) {
@@ -201,18 +212,8 @@ std::vector<analysis::Warning> omission_warning(const Blob& blob, const Channels
 
 Content content(const Run& run) {
   const auto& [table, ended, machine, derived, record, warned, summary, verdicts] = run.analysis;
-  Channels channels;
-  channels.add(table);
-  channels.add(derived);
-  signals::Table drawn;
-  Scene scene_of_run;
-  Stand stand_of_run;
-  if (machine.stand)
-    stand_of_run = stand(channels, machine, drawn);
-  else
-    scene_of_run = scene(channels, machine, record, drawn);
-  channels.add(drawn);
-
+  const Drawing drawing(table, derived, machine, record);
+  const Channels& channels = drawing.channels;
   Blob blob;
   Columns columns(channels, blob);
   Json json = head(run, machine);
@@ -222,10 +223,10 @@ Content content(const Run& run) {
   if (const std::vector<PageChange> changes = changes_of(run.resolved); !changes.empty())
     json["changes"] = to_json(changes);
   json["panels"] = panels_json(panels(channels, machine), columns);
-  json["scene"] = to_json(scene_of_run, columns);
+  json["scene"] = to_json(drawing.scene, columns);
   if (machine.stand) {
-    json["stand"] = to_json(stand_of_run, columns);
-    json["charts"] = charts_json(stand_charts(channels, stand_of_run), columns);
+    json["stand"] = to_json(drawing.stand, columns);
+    json["charts"] = charts_json(stand_charts(channels, drawing.stand), columns);
   }
   std::vector<analysis::Warning> warnings = end_warning(run);
   std::ranges::move(omission_warning(blob, channels, record.phase_spans().size()),
@@ -277,14 +278,11 @@ Json picture_of_robot(const config::Node& resolved) {
   const analysis::Machine machine = analysis::read_machine(resolved);
   const signals::Table row = first_row(resolved, machine);
   const analysis::Record record(row, machine);
-  Channels channels;
-  channels.add(row);
-  signals::Table drawn;
-  const Scene scene_of_row = scene(channels, machine, record, drawn);
-  channels.add(drawn);
+  const signals::Table derived;
+  const Drawing drawing(row, derived, machine, record);
   Blob blob;
-  Columns columns(channels, blob);
-  Json out{{"scene", to_json(scene_of_row, columns)}, {"atmosphere", machine.atmosphere}};
+  Columns columns(drawing.channels, blob);
+  Json out{{"scene", to_json(drawing.scene, columns)}, {"atmosphere", machine.atmosphere}};
   out["samples"] = to_json(blob.layout());
   out["data"] = blob.base64();
   return out;

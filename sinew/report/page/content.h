@@ -99,6 +99,20 @@ class Columns {
   std::vector<Request> list_;
 };
 
+// The drawing of a run's machine, and all channels of the run: recorded, derived, drawn.
+struct Drawing {
+  // The tables must outlive this object.
+  Drawing(const signals::Table& logged, const signals::Table& derived,
+          const analysis::Machine& machine, const analysis::Record& record);
+  Drawing(const Drawing&) = delete;
+  Drawing& operator=(const Drawing&) = delete;
+
+  signals::Table drawn;
+  Channels channels;
+  Scene scene;  // empty for a stand
+  Stand stand;  // empty for a robot
+};
+
 // Return JSON; a channel is the index of its column, or null.
 Json panels_json(const std::vector<Plot>& panels, Columns& columns);  // over time
 Json charts_json(const std::vector<Plot>& charts, Columns& columns);

@@ -100,21 +100,12 @@ bool is_pointwise(std::string_view topic) {
 struct LivePage::Parts {
   Parts(const Table& table, const analysis::Machine& machine)
       : derived(without_windows(analysis::derive(table, machine))),
-        record(table, machine, &derived) {
-    channels.add(table);
-    channels.add(derived);
-    if (machine.stand)
-      stand = report::stand(channels, machine, drawn);
-    else
-      scene = report::scene(channels, machine, record, drawn);
-    channels.add(drawn);
-  }
+        record(table, machine, &derived),
+        drawing(table, derived, machine, record) {}
 
-  Table derived, drawn;
+  Table derived;
   analysis::Record record;
-  Channels channels;
-  Scene scene;
-  Stand stand;
+  Drawing drawing;
 };
 
 LivePage::LivePage(const std::vector<signals::Topic>& topics, Of of)
@@ -123,7 +114,7 @@ LivePage::LivePage(const std::vector<signals::Topic>& topics, Of of)
   const Parts parts(prototype.table, machine_);
 
   Blob blob;
-  Columns columns(parts.channels, blob);
+  Columns columns(parts.drawing.channels, blob);
   const analysis::Analysis analysis(prototype.table, machine_);
   const report::Content whole = report::content(
       {.analysis = analysis, .resolved = of_.resolved, .name = of_.name, .units = of_.units});
@@ -131,9 +122,9 @@ LivePage::LivePage(const std::vector<signals::Topic>& topics, Of of)
   Json head = Json::parse(whole.json);
   head["duration"] = of_.duration;
   head["phases"]["stretches"] = Json::array();
-  head["panels"] = panels_json(panels(parts.channels, machine_), columns);
-  head["scene"] = to_json(parts.scene, columns);
-  if (machine_.stand) head["stand"] = to_json(parts.stand, columns);
+  head["panels"] = panels_json(panels(parts.drawing.channels, machine_), columns);
+  head["scene"] = to_json(parts.drawing.scene, columns);
+  if (machine_.stand) head["stand"] = to_json(parts.drawing.stand, columns);
   if (!machine_.faults.empty()) head["faults"] = to_json(machine_.faults, of_.duration);
   head.erase("charts");   // these need the whole run
   head.erase("changes");  // each is sent when it takes effect
@@ -159,7 +150,7 @@ std::string LivePage::piece(const Table& table) const {
   std::deque<signals::Column> no_values;  // one per missing channel: a blob joins equal addresses
   const signals::Times no_times;
   for (const Columns::Request& request : columns_) {
-    Samples samples = parts.channels.find(request.channel);
+    Samples samples = parts.drawing.channels.find(request.channel);
     if (!samples) samples = {&no_times, &no_values.emplace_back(), ""};
     blob.add(samples, request.as);
   }
