@@ -316,10 +316,6 @@ class RawReader {
   std::size_t without_time_ = 0;
 };
 
-}  // namespace
-
-namespace {
-
 RawTable read_clocks(const Grid& grid, const Source& source) {
   std::set<std::string> names;
   const std::vector<ClockColumns> clocks = clock_columns(grid, RawReader(grid, source).clock());

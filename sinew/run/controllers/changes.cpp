@@ -31,13 +31,13 @@ bool Changes::is_there(const Steering::Request& request) const noexcept {
 bool Changes::request_change(const Steering::Request& request) noexcept {
   if (!is_there(request)) return false;
   for (std::size_t leg = 0; leg < legs_.size(); ++leg)
-    if (is_of(request, leg)) waiting_[leg][request.setting] = {true, request};
-  waits_ = true;
+    if (is_of(request, leg)) state_.waiting[leg][request.setting] = {true, request};
+  state_.waits = true;
   return true;
 }
 
 Changes::State Changes::state() const noexcept {
-  State out{.next = next_, .waiting = waiting_, .waits = waits_};
+  State out = state_;
   for (std::size_t leg = 0; leg < legs_.size(); ++leg) out.overrides[leg] = overrides_[leg].state();
   return out;
 }
@@ -45,9 +45,7 @@ Changes::State Changes::state() const noexcept {
 void Changes::restore(const State& state) noexcept {
   for (std::size_t leg = 0; leg < legs_.size(); ++leg)
     overrides_[leg].restore(state.overrides[leg]);
-  next_ = state.next;
-  waiting_ = state.waiting;
-  waits_ = state.waits;
+  state_ = state;
 }
 
 void Changes::override_setting(const Steering::Request& request, std::size_t leg) noexcept {
@@ -63,17 +61,18 @@ void Changes::override_setting(const Steering::Request& request) noexcept {
 }
 
 void Changes::apply_waiting() noexcept {
-  if (!waits_) return;
+  if (!state_.waits) return;
   for (std::size_t leg = 0; leg < legs_.size(); ++leg)
-    for (Waiting& w : waiting_[leg]) {
+    for (Waiting& w : state_.waiting[leg]) {
       if (w.given) override_setting(w.request, leg);
       w.given = false;
     }
-  waits_ = false;
+  state_.waits = false;
 }
 
 void Changes::apply(Tick t, std::span<gait::Desired> legs) noexcept {
-  for (; next_ < due_.size() && due_[next_].at <= t; ++next_) override_setting(due_[next_].request);
+  for (std::size_t& next = state_.next; next < due_.size() && due_[next].at <= t; ++next)
+    override_setting(due_[next].request);
   if (steering_)
     steering_->take([&](const Steering::Request& request) {
       if (!is_there(request) || steered_.size() == most) return steering_->refuse();

@@ -53,7 +53,7 @@ class Changes {
     std::array<gait::Overrides::State, robot::max_legs> overrides{};  // one per leg
     std::size_t next = 0;                                             // index in the plan's list
     WaitingOfLegs waiting{};
-    bool waits = false;
+    bool waits = false;  // whether any of them is given
   };
   State state() const noexcept;
   void restore(const State& state) noexcept;
@@ -77,9 +77,7 @@ class Changes {
   std::vector<gait::Overrides> overrides_;  // one per leg
   Steering* steering_;
   std::vector<Due> due_;  // the plan's list, sorted by time
-  std::size_t next_ = 0;
-  WaitingOfLegs waiting_{};
-  bool waits_ = false;  // whether any of them is given
+  State state_;           // without the overrides
   std::vector<Due> steered_;
 };
 

@@ -37,7 +37,7 @@ Reading FaultyPort::spoil(const Acting& acting, Reading r, Tick now) const noexc
     case shorted:
       return {0, r.status};
     case stuck:
-      return {has_counts_[channel] ? before_[channel] : r.counts, r.status};
+      return {state_.has_counts[channel] ? state_.before[channel] : r.counts, r.status};
     case offset:
     case slip:
       return {counts(r.counts + fault.amount), r.status};
@@ -47,7 +47,7 @@ Reading FaultyPort::spoil(const Acting& acting, Reading r, Tick now) const noexc
       // The fractional part of a sum of uniform numbers is uniform.
       const double n = drawn(i, now);
       const bool lost = !(n - std::floor(n) >= fault.amount);
-      return lost ? Reading{before_[channel], Status::late} : r;
+      return lost ? Reading{state_.before[channel], Status::late} : r;
     }
     default:
       break;  // a fault of the air
@@ -62,8 +62,8 @@ Reading FaultyPort::read(signals::Channel channel, Tick now) noexcept {
   for (const Acting& f : faults_)
     if (f.channel == channel.index && experiment::acts(f.fault, time)) r = spoil(f, r, now);
   if (r.status == Status::ok) {
-    before_[channel.index] = r.counts;
-    has_counts_[channel.index] = true;
+    state_.before[channel.index] = r.counts;
+    state_.has_counts[channel.index] = true;
   }
   return r;
 }

@@ -28,11 +28,8 @@ class FaultyPort final : public signals::Port {
     std::array<std::uint16_t, robot::max_sensors> before{};
     std::array<bool, robot::max_sensors> has_counts{};
   };
-  State state() const noexcept { return {before_, has_counts_}; }
-  void restore(const State& state) noexcept {
-    before_ = state.before;
-    has_counts_ = state.has_counts;
-  }
+  const State& state() const noexcept { return state_; }
+  void restore(const State& state) noexcept { state_ = state; }
 
  private:
   struct Acting {
@@ -47,9 +44,8 @@ class FaultyPort final : public signals::Port {
   signals::Port& body_;
   std::vector<Acting> faults_;
   std::uint64_t seed_;
-  double top_;                                              // highest count of the converter
-  std::array<std::uint16_t, robot::max_sensors> before_{};  // last counts returned
-  std::array<bool, robot::max_sensors> has_counts_{};
+  double top_;  // highest count of the converter
+  State state_;
 };
 
 }  // namespace sinew::run
