@@ -44,64 +44,18 @@ RunResult run_alone(BegunRun begun) {
   return begun.ensemble->result(std::move(begun.member), outcome);
 }
 
-}  // namespace
-
-void run_many(const Many& many) {
-  struct Going {
-    std::size_t number;
-    BegunRun run;
-  };
-  std::vector<Going> going;
-  const auto find = [&](const experiment::Experiment& e) {
-    return std::ranges::find_if(going,
-                                [&](const Going& g) { return &g.run.member->experiment == &e; });
-  };
-  const auto next = [&]() -> const experiment::Experiment* {
-    while (const std::optional<std::size_t> number = many.next()) {
-      BegunRun begun;
-      RunResult refused = refusing([&] {
-        begun = many.begin(*number);
-        return RunResult{};
-      });
-      if (begun.member)
-        return &going.emplace_back(Going{*number, std::move(begun)}).run.member->experiment;
-      many.done(*number, std::move(refused));
-    }
-    return nullptr;
-  };
-  const auto topics = [&](const experiment::Experiment& e) -> const signals::TopicNames* {
-    const auto& selection = find(e)->run.member->selection;
-    return selection ? &selection->topics() : nullptr;
-  };
-  const auto done = [&](const experiment::Experiment& e, const Outcome& outcome,
-                        const std::exception_ptr& thrown) {
-    const auto at = find(e);
-    Going ended = std::move(*at);
-    going.erase(at);
-    many.done(ended.number, refusing([&] {
-                if (thrown) std::rethrow_exception(thrown);
-                return ended.run.ensemble->result(std::move(ended.run.member), outcome);
-              }));
-  };
-  run_in_lanes({.next = next, .done = done, .most = many.lanes, .topics = topics});
-}
-
-namespace {
-
-// A run of a batch, begun or refused.
-struct BatchMember {
+// A run, begun or refused, and its number.
+struct NumberedRun {
   std::size_t number = 0;
   BegunRun run;
 };
-
-bool is_stopped(const Many& many) { return many.stopped && many.stopped(); }
 
 const signals::TopicNames* topics_of(const BegunRun& run) {
   return run.member->selection ? &run.member->selection->topics() : nullptr;
 }
 
 // Begins a run; reports it if it is refused, and has no member then.
-void begin_member(const Many& many, BatchMember& its) {
+void begin_member(const Many& many, NumberedRun& its) {
   RunResult refused = refusing([&] {
     its.run = many.begin(its.number);
     return RunResult{};
@@ -109,9 +63,49 @@ void begin_member(const Many& many, BatchMember& its) {
   if (!its.run.member) many.done(its.number, std::move(refused));
 }
 
+// Reports a run with its outcome, or with the exception in place of one.
+void end_member(const Many& many, NumberedRun its, const Outcome& outcome,
+                const std::exception_ptr& thrown = nullptr) {
+  many.done(its.number, refusing([&] {
+              if (thrown) std::rethrow_exception(thrown);
+              return its.run.ensemble->result(std::move(its.run.member), outcome);
+            }));
+}
+
+}  // namespace
+
+void run_many(const Many& many) {
+  std::vector<NumberedRun> going;
+  const auto find = [&](const experiment::Experiment& e) {
+    return std::ranges::find_if(
+        going, [&](const NumberedRun& its) { return &its.run.member->experiment == &e; });
+  };
+  const auto next = [&]() -> const experiment::Experiment* {
+    while (const std::optional<std::size_t> number = many.next()) {
+      NumberedRun its{*number, {}};
+      begin_member(many, its);
+      if (its.run.member) return &going.emplace_back(std::move(its)).run.member->experiment;
+    }
+    return nullptr;
+  };
+  const auto topics = [&](const experiment::Experiment& e) { return topics_of(find(e)->run); };
+  const auto done = [&](const experiment::Experiment& e, const Outcome& outcome,
+                        const std::exception_ptr& thrown) {
+    const auto at = find(e);
+    NumberedRun ended = std::move(*at);
+    going.erase(at);
+    end_member(many, std::move(ended), outcome, thrown);
+  };
+  run_in_lanes({.next = next, .done = done, .most = many.lanes, .topics = topics});
+}
+
+namespace {
+
+bool is_stopped(const Many& many) { return many.stopped && many.stopped(); }
+
 // The next runs, begun in parallel, at most `most`; `is_last`: there are no more.
 struct Batch {
-  std::vector<BatchMember> members;
+  std::vector<NumberedRun> members;
   bool is_last = false;
 };
 Batch begin_batch(const Many& many, std::size_t most, int threads) {
@@ -126,21 +120,21 @@ Batch begin_batch(const Many& many, std::size_t most, int threads) {
   host::side_by_side(
       batch.members.size(), [&](std::size_t i) { begin_member(many, batch.members[i]); }, nullptr,
       threads);
-  std::erase_if(batch.members, [](const BatchMember& its) { return !its.run.member; });
+  std::erase_if(batch.members, [](const NumberedRun& its) { return !its.run.member; });
   return batch;
 }
 
 // Runs one of each ensemble whose channels are not known by itself, which finds them for the
 // others.
-void find_channels(const Many& many, std::vector<BatchMember>& members) {
-  for (BatchMember& its : members) {
+void find_channels(const Many& many, std::vector<NumberedRun>& members) {
+  for (NumberedRun& its : members) {
     if (its.run.member->selection) continue;
     its.run.member->selection = its.run.ensemble->selection();
     if (its.run.member->selection || is_stopped(many)) continue;
     many.done(its.number, refusing([&] { return run_alone(std::move(its.run)); }));
     its.run.member.reset();
   }
-  std::erase_if(members, [](const BatchMember& its) { return !its.run.member; });
+  std::erase_if(members, [](const NumberedRun& its) { return !its.run.member; });
 }
 
 // Runs all in lanes on threads.
@@ -150,7 +144,7 @@ void run_in_threads(const Many& many, std::size_t threads) {
 }
 
 // Runs what a batch could not hold.
-void run_rest(const Many& many, std::vector<BatchMember> rest, int threads) {
+void run_rest(const Many& many, std::vector<NumberedRun> rest, int threads) {
   std::atomic<std::size_t> taken{0};
   const auto next = [&]() -> std::optional<std::size_t> {
     const std::size_t i = is_stopped(many) ? rest.size() : taken++;
@@ -172,13 +166,11 @@ void run_many_in_batches(const Many& many, const InBatches& how, int threads) {
     is_last = batch.is_last;
     find_channels(many, batch.members);
     std::vector<BatchedRun> runs;
-    for (const BatchMember& its : batch.members)
+    for (const NumberedRun& its : batch.members)
       runs.push_back({topics_of(its.run) ? &its.run.member->experiment : nullptr,
                       topics_of(its.run), its.run.ensemble->plan_of(*its.run.member)});
     const auto done = [&](std::size_t i, const Outcome& outcome) {
-      BegunRun& its = batch.members[i].run;
-      many.done(batch.members[i].number,
-                refusing([&] { return its.ensemble->result(std::move(its.member), outcome); }));
+      end_member(many, std::move(batch.members[i]), outcome);
     };
     try {
       run_batch(
@@ -190,8 +182,8 @@ void run_many_in_batches(const Many& many, const InBatches& how, int threads) {
       failed = true;
       if (many.notice) many.notice(std::string(e.what()) + "; the processor continues");
     }
-    std::vector<BatchMember> rest;
-    for (BatchMember& its : batch.members)
+    std::vector<NumberedRun> rest;
+    for (NumberedRun& its : batch.members)
       if (its.run.member) rest.push_back(std::move(its));
     run_rest(many, std::move(rest), threads);
   }
