@@ -7,8 +7,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sinew/config/user_settings.h"
-
 namespace sinew::config::shown_units_test {
 namespace {
 

@@ -10,7 +10,7 @@
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/gains.h"
-#include "sinew/config/user_settings.h"
+#include "sinew/config/shown_units.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/experiment/faults.h"
 #include "sinew/experiment/machine_file.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/config/user_settings.h"
+#include "sinew/config/shown_units.h"
 #include "sinew/control/gait/plan.h"
 #include "sinew/experiment/experiment.fields.h"
 #include "sinew/experiment/imported.fields.h"
