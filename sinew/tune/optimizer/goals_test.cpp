@@ -1,5 +1,5 @@
 // Evaluation of runs: weights, limits that must hold for a share of them, fronts.
-#include "sinew/tune/optimizer/goals.h"
+#include "sinew/tune/optimizer/tuning.h"
 
 #include <gtest/gtest.h>
 
