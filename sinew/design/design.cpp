@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sinew/report/page/design_page.h"
+#include "sinew/report/page/page.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/units/unit.h"
 

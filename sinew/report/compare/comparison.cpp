@@ -9,7 +9,6 @@
 
 #include "sinew/analysis/summary.h"
 #include "sinew/config/compose.h"
-#include "sinew/report/page/content.h"
 #include "sinew/units/quantity.h"
 
 namespace sinew::report {

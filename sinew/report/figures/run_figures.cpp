@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "sinew/report/page/panels.h"
+#include "sinew/report/page/content.h"
 #include "sinew/report/page/parameters.h"
 #include "sinew/report/page/plot.h"
 #include "sinew/report/page/stand.h"

@@ -15,7 +15,6 @@
 #include "sinew/config/node.h"
 #include "sinew/config/shown_units.h"
 #include "sinew/json/json.h"
-#include "sinew/report/page/panels.h"
 #include "sinew/report/page/parameters.h"
 #include "sinew/report/page/plot.h"
 #include "sinew/report/page/scene.h"
@@ -112,6 +111,10 @@ struct Drawing {
   Scene scene;  // empty for a stand
   Stand stand;  // empty for a robot
 };
+
+// Returns the panels of the channels over time, without empty ones. Channels that no panel has come
+// last, by unit. Setpoints are of kind desired; lines that would repeat another one are hidden.
+std::vector<Plot> panels(const Channels& channels, const analysis::Machine& machine);
 
 // Return JSON; a channel is the index of its column, or null.
 Json panels_json(const std::vector<Plot>& panels, Columns& columns);  // over time

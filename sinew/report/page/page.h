@@ -10,9 +10,12 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sinew/analysis/summary.h"
 #include "sinew/config/node.h"
+#include "sinew/json/json.h"
+#include "sinew/report/page/plot.h"
 
 namespace sinew::report {
 
@@ -64,5 +67,21 @@ std::string_view run_list_template();    // the runs in a folder
 
 // Escapes text for use between tags and in attributes with double quotes.
 std::string escaped(std::string_view text);
+
+// Result of a design calculation as one self-contained page: numbers with their intervals, tables
+// and plots.
+struct DesignPage {
+  std::string title;
+  std::string version;    // version of the program
+  double atmosphere = 0;  // reference of gauge pressures [Pa]
+  Json values, tables;    // lists; numbers in SI with their units
+  std::vector<Plot> plots;
+  std::string refused;  // why no design is possible; empty: there is one
+  std::vector<std::string> notes, warnings;
+  std::vector<std::string> unseen;  // limits of the result, in sentences
+};
+
+// Returns the page. Throws std::runtime_error if the program was built without its pages.
+std::string page(const DesignPage& design);
 
 }  // namespace sinew::report

@@ -7,7 +7,7 @@
 
 #include "sinew/analysis/summary.h"
 #include "sinew/config/compose.h"
-#include "sinew/report/page/panels.h"
+#include "sinew/report/page/content.h"
 #include "sinew/report/page/parameters.h"
 #include "sinew/report/page/test_run.h"
 #include "tests/places.h"

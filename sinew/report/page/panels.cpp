@@ -1,4 +1,4 @@
-#include "sinew/report/page/panels.h"
+#include "sinew/report/page/content.h"
 
 #include <algorithm>
 #include <cmath>

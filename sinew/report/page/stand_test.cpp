@@ -9,8 +9,8 @@
 #include "sinew/actuator/braid.h"
 #include "sinew/analysis/record/test_log.h"
 #include "sinew/config/compose.h"
+#include "sinew/report/page/content.h"
 #include "sinew/report/page/page.h"
-#include "sinew/report/page/panels.h"
 #include "sinew/report/page/test_run.h"
 #include "tests/places.h"
 
