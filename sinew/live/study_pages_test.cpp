@@ -7,7 +7,6 @@
 
 #include "sinew/json/json.h"
 #include "sinew/live/served.h"
-#include "sinew/live/study_pages.h"
 #include "sinew/report/page/page.h"
 #include "sinew/tune/results/results.h"
 #include "tests/places.h"
