@@ -19,20 +19,12 @@ namespace sinew::live {
 
 namespace {
 
-// Topics that pages show. A machine has no true values, so topics under /true are left out.
-struct ShownTopics {
-  std::vector<signals::Topic> topics;
-  std::vector<std::uint16_t> of_topic;  // index in `topics` by topic of the run, or not_tapped
-};
-
-ShownTopics shown_topics_of(const experiment::Experiment& e, bool simulated) {
-  ShownTopics out;
-  for (signals::Topic& topic : run::topics(e)) {
-    const bool there = simulated || !topic.name.starts_with("/true/");
-    out.of_topic.push_back(there ? static_cast<std::uint16_t>(out.topics.size()) : run::not_tapped);
-    if (there) out.topics.push_back(std::move(topic));
-  }
-  return out;
+// Returns the topics that pages show. A machine has no true values, so topics under /true are left
+// out.
+run::LoggedTopics shown_topics_of(const experiment::Experiment& e, bool simulated) {
+  return run::logged_topics(run::topics(e), [simulated](const signals::Topic& topic) {
+    return simulated || !topic.name.starts_with("/true/");
+  });
 }
 
 // Passes samples to the log, if it has their topic, and to the feed.
@@ -100,14 +92,14 @@ class LiveRun::Impl {
   // Runs on a thread of its own. Only this thread writes the results that `over_` publishes.
   void run() {
     try {
-      Tee tee{{}, {}, shown_.of_topic, feed_};
+      Tee tee{{}, {}, shown_.of_series, feed_};
       run::RunOptions o{.steering = &steering_, .progress = &tick_, .stop = &stop_};
       kept_.apply(o);
       tee.log = o.tap;
       tee.logged = std::move(o.tapped);
       o.tap = {&tee, &Tee::push};
       o.tapped.clear();
-      for (std::size_t i = 0; i < shown_.of_topic.size(); ++i)
+      for (std::size_t i = 0; i < shown_.of_series.size(); ++i)
         o.tapped.push_back(static_cast<std::uint16_t>(i));
       const auto kept = kept_.store(run::run(kept_.experiment(), o));
       if (options_.kept) options_.kept(kept);
@@ -173,7 +165,7 @@ class LiveRun::Impl {
   run::RunStorage kept_;
   const config::Node values_;
   run::Steering steering_;
-  const ShownTopics shown_;
+  const run::LoggedTopics shown_;
   Feed feed_;
   std::atomic<std::int64_t> tick_{0};
   std::atomic<bool> stop_{false};
@@ -193,10 +185,7 @@ namespace {
 
 // Checks the page and the port before a folder is created.
 void require_live(Port port) {
-  if (!report::has_page())
-    throw std::runtime_error(
-        "sinew view: this sinew was built without its page, which npm bundles; try: install npm, "
-        "then run npm ci in web/ and build again");
+  report::require_page("sinew view");
   if (port.number > 0) Server(port, {});
 }
 

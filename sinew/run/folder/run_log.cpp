@@ -29,13 +29,21 @@ void refuse_other_topics(const signals::Table& table, const LoggedTopics& logged
 
 }  // namespace
 
-LoggedTopics logged_topics(const signals::Table& table) {
+LoggedTopics logged_topics(const std::vector<signals::Topic>& recorded,
+                           const std::function<bool(const signals::Topic&)>& chosen) {
   LoggedTopics out;
-  for (const signals::Series& s : table.series) {
-    out.of_series.push_back(static_cast<std::uint16_t>(out.topics.size()));
-    out.topics.push_back(s.topic);
+  for (const signals::Topic& topic : recorded) {
+    const bool is_chosen = chosen(topic);
+    out.of_series.push_back(is_chosen ? static_cast<std::uint16_t>(out.topics.size()) : not_tapped);
+    if (is_chosen) out.topics.push_back(topic);
   }
   return out;
+}
+
+LoggedTopics logged_topics(const signals::Table& table) {
+  std::vector<signals::Topic> all;
+  for (const signals::Series& s : table.series) all.push_back(s.topic);
+  return logged_topics(all, [](const signals::Topic&) { return true; });
 }
 
 LoggedTopics logged_topics(const std::vector<signals::Topic>& recorded,
@@ -46,13 +54,9 @@ LoggedTopics logged_topics(const std::vector<signals::Topic>& recorded,
   const std::vector<std::string> chosen =
       experiment::select(patterns, config::names_of(recorded),
                          written ? origin->where : config::Location{path, 0, 0}, "log.channels");
-  LoggedTopics out;
-  for (const signals::Topic& topic : recorded) {
-    const bool is_chosen = std::ranges::find(chosen, topic.name) != chosen.end();
-    out.of_series.push_back(is_chosen ? static_cast<std::uint16_t>(out.topics.size()) : not_tapped);
-    if (is_chosen) out.topics.push_back(topic);
-  }
-  return out;
+  return logged_topics(recorded, [&](const signals::Topic& topic) {
+    return std::ranges::find(chosen, topic.name) != chosen.end();
+  });
 }
 
 LoggedTopics logged_topics(const experiment::Experiment& e) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct LoggedTopics {
   std::vector<std::uint16_t> of_series;  // number in the log, by recorded series; not_tapped: not
                                          // logged
 };
+
+// Selects the topics for which `chosen` holds.
+LoggedTopics logged_topics(const std::vector<signals::Topic>& recorded,
+                           const std::function<bool(const signals::Topic&)>& chosen);
 
 // Selects all topics of a table.
 LoggedTopics logged_topics(const signals::Table& table);
