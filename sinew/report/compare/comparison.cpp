@@ -135,10 +135,7 @@ ComparedRun opened(NamedRun&& recorded, const AlignOptions& options, Base& first
 void add_differences(std::vector<ChannelRow>& rows, const signals::Table& first,
                      const signals::Table& other, std::size_t run, std::size_t runs) {
   for (analysis::ChannelDifference& d : analysis::differences(first, other)) {
-    const auto same = [&](const ChannelRow& r) {
-      return r.channel.topic == d.topic && r.channel.field == d.field;
-    };
-    auto at = std::ranges::find_if(rows, same);
+    auto at = std::ranges::find(rows, Channel{d.topic, d.field}, &ChannelRow::channel);
     if (at == rows.end()) {
       rows.push_back({{d.topic, d.field}, d.unit, {}});
       at = rows.end() - 1;
@@ -233,9 +230,8 @@ std::vector<Residual> residuals_of(const Comparison& c) {
       if (!a.values || !b.values) continue;
       analysis::PairedSamples met = analysis::pair_samples(a, b);
       if (met.time_ns.empty()) continue;
-      const std::string field = row.channel.field == "value" ? "" : "." + row.channel.field;
-      out.push_back({fmt::format("{} {}{} [{}]", static_cast<char>('A' + i), row.channel.topic,
-                                 field, units::difference_unit(row.unit)),
+      out.push_back({fmt::format("{} {} [{}]", static_cast<char>('A' + i), row.channel.name(),
+                                 units::difference_unit(row.unit)),
                      std::move(met)});
     }
   return out;

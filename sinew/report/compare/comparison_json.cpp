@@ -175,10 +175,8 @@ Json panels_of(const Comparison& c, RunSamples& samples) {
   for (const Plot& panel : c.runs.front().panels)
     for (const Curve& line : panel.curves) {
       const Channel& channel = line.y_channel;
-      const bool common = std::ranges::any_of(c.channels, [&](const ChannelRow& row) {
-        return row.channel.topic == channel.topic && row.channel.field == channel.field;
-      });
-      if (!common) continue;
+      if (std::ranges::find(c.channels, channel, &ChannelRow::channel) == c.channels.end())
+        continue;
       out.push_back({{"group", panel.group},
                      {"title", panel.title},
                      {"unit", panel.y.unit},

@@ -284,10 +284,6 @@ void print_parameters(const Comparison& c, const ComparisonText& how, std::strin
 
 // --- channels ---
 
-std::string name_of(const ChannelRow& row) {
-  return row.channel.topic + (row.channel.field == "value" ? "" : "." + row.channel.field);
-}
-
 std::string note_of(const analysis::Difference& d) {
   std::string note;
   if (d.how == analysis::Pairing::between) note = "between samples";
@@ -305,13 +301,14 @@ std::string difference_text(double si, const std::string& unit, const ShownUnits
 
 std::vector<std::string> channel_cells(const ChannelRow& row, const analysis::Difference& d,
                                        const ShownUnits& units) {
-  if (d.same) return {name_of(row), "same samples"};
-  if (d.equal()) return {name_of(row), "equal", "", "", "", "", "", note_of(d)};
-  if (d.samples == 0) return {name_of(row), "never meet"};
+  if (d.same) return {row.channel.name(), "same samples"};
+  if (d.equal()) return {row.channel.name(), "equal", "", "", "", "", "", note_of(d)};
+  if (d.samples == 0) return {row.channel.name(), "never meet"};
   const std::string at = fmt::format("{:.4g} s", d.at);
-  if (d.how == analysis::Pairing::held) return {name_of(row), "", "", "", "", at, "", note_of(d)};
+  if (d.how == analysis::Pairing::held)
+    return {row.channel.name(), "", "", "", "", at, "", note_of(d)};
   const auto text = [&](double si) { return difference_text(si, row.unit, units); };
-  return {name_of(row),
+  return {row.channel.name(),
           text(d.rms),
           d.span > 0 ? fmt::format("{:.2g} %", 100 * d.share()) : "",
           signed_text(text(d.bias), d.bias),

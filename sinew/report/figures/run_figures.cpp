@@ -266,8 +266,6 @@ void Maker::over(const std::string& name, const std::string& title, const Axis& 
 
 constexpr std::string_view truth = "/true";
 
-bool same(const Channel& a, const Channel& b) { return a.topic == b.topic && a.field == b.field; }
-
 // Returns the topics of a choice, in the order of the tables.
 std::vector<const signals::Series*> topics_in(const Channels& channels, const ChosenChannels& of) {
   std::vector<const signals::Series*> out;
@@ -296,7 +294,7 @@ struct PanelLine {
 PanelLine find_line(const std::vector<Plot>& panels, const Channel& channel) {
   for (const Plot& panel : panels)
     for (const Curve& line : panel.curves)
-      if (same(line.y_channel, channel)) return {&panel, &line};
+      if (line.y_channel == channel) return {&panel, &line};
   return {};
 }
 
@@ -332,8 +330,7 @@ class Part {
     const PanelLine at = find_line(panels_, channel);
     Plot& panel = panel_for(at, channel, at.panel ? at.panel->y.unit : samples.unit);
     const auto there = [&](const Channel& c) {
-      return std::ranges::any_of(panel.curves,
-                                 [&](const Curve& l) { return same(l.y_channel, c); });
+      return std::ranges::find(panel.curves, c, &Curve::y_channel) != panel.curves.end();
     };
     if (there(channel)) return;
     int color = 0;

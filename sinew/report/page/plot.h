@@ -19,6 +19,9 @@ struct Channel {
 
   // Returns whether this is no channel.
   bool is_empty() const { return topic.empty(); }
+  // Returns "/foot/position.x"; of the field "value" the topic alone.
+  std::string name() const { return field == "value" ? topic : topic + "." + field; }
+  bool operator==(const Channel&) const = default;
 };
 
 // A channel's samples; points into a table.

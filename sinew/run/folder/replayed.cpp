@@ -10,6 +10,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/json/json.h"
 #include "sinew/log/reader.h"
+#include "sinew/report/page/plot.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/run_storage.h"
@@ -104,10 +105,6 @@ using Align = TextTable::Align;
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-std::string channel_of(const analysis::Divergence& p) {
-  return p.field == "value" ? p.topic : p.topic + "." + p.field;
-}
-
 // --- JSON ---
 
 Json json_of(const analysis::EdgeComparison& c) {
@@ -181,7 +178,8 @@ std::string plant_text(const Replayed& r, const units::ShownUnits& units, std::s
     parted += p.at.has_value();
     same += d.same || d.equal();
     if (d.same || d.equal()) continue;
-    table.add({channel_of(p), p.at ? fmt::format("{:.3f} s", *p.at) : "stays",
+    table.add({report::Channel{p.topic, p.field}.name(),
+               p.at ? fmt::format("{:.3f} s", *p.at) : "stays",
                difference_text(p.band, p.unit, units), difference_text(d.rms, p.unit, units),
                d.span > 0 ? fmt::format("{:.2g} %", 100 * d.share()) : "",
                difference_text(d.largest, p.unit, units, true), fmt::format("{:.3f} s", d.at),
