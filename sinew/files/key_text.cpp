@@ -20,7 +20,7 @@ namespace {
 struct Kind {
   std::string_view name, title, files, note = "";
 };
-constexpr Kind kinds[] = {
+constexpr Kind titled_kinds[] = {
     {"any", "Every file", "",
      "source, fit, guess and range are keys of { value = … }, or of a table for all its values."},
     {"robot", "Robot", "robots/*/robot.toml",
@@ -143,7 +143,7 @@ std::string text_of(const std::vector<Key>& keys, std::size_t width) {
     for (const Key& key : keys)
       if (key.kind == kind) table.add({key.path, holds(key), stands_instead(key), line_of(key)});
     if (table.empty()) continue;
-    const Kind& its = *std::ranges::find(kinds, kind, &Kind::name);
+    const Kind& its = *std::ranges::find(titled_kinds, kind, &Kind::name);
     out += fmt::format("{}{}{}{}\n", out.empty() ? "" : "\n", its.title,
                        its.files.empty() ? "" : ": ", its.files);
     out += table.text_within(width);
@@ -165,7 +165,7 @@ std::string page_of_keys() {
       "of tables. [59] is an equation of the thesis; B.1, appendix A and thesis 6.5 are sections. "
       "The program generates this page from the tables with which it reads files.\n";
   for (const std::string& kind : key_kinds()) {
-    const Kind& its = *std::ranges::find(kinds, kind, &Kind::name);
+    const Kind& its = *std::ranges::find(titled_kinds, kind, &Kind::name);
     out += fmt::format("\n## {}\n\n", its.title);
     const std::string note = cell(its.note);
     if (!its.files.empty()) out += fmt::format("`{}`.{}", its.files, note.empty() ? "" : " ");
