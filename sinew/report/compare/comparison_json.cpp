@@ -10,8 +10,6 @@
 namespace sinew::report {
 namespace {
 
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
 template <class T>
 Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json();
@@ -20,10 +18,10 @@ Json or_null(const std::optional<T>& value) {
 // Alignment of a run with the first one.
 Json alignment_of(const analysis::Alignment& a) {
   Json out{{"shift_s", a.clock.shift},
-           {"shift_uncertainty_s", finite(a.shift_uncertainty)},
+           {"shift_uncertainty_s", a.shift_uncertainty},
            {"rate", a.clock.rate},
-           {"rate_uncertainty", finite(a.rate_uncertainty)},
-           {"correlation", finite(a.correlation)},
+           {"rate_uncertainty", a.rate_uncertainty},
+           {"correlation", a.correlation},
            {"channels", a.channels},
            {"event", a.event.empty() ? Json() : Json(a.event)},
            {"pieces", a.pieces},
@@ -88,9 +86,9 @@ Json difference_of(const std::optional<analysis::Difference>& d) {
   if (!d) return {};
   return {{"meet", to_text(d->how)}, {"same", d->same},
           {"samples", d->samples},   {"gaps", d->gaps},
-          {"rms", finite(d->rms)},   {"largest", finite(d->largest)},
-          {"at_s", finite(d->at)},   {"span", d->span},
-          {"bias", finite(d->bias)}, {"correlation", finite(d->correlation)}};
+          {"rms", d->rms},           {"largest", d->largest},
+          {"at_s", d->at},           {"span", d->span},
+          {"bias", d->bias},         {"correlation", d->correlation}};
 }
 
 Json channels_of(const Comparison& c) {

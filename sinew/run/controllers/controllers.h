@@ -35,12 +35,8 @@ class Controllers {
   const HighLevel* gait() const noexcept { return std::get_if<HighLevel>(&high_level_); }
   const Drive* drive() const noexcept { return std::get_if<Drive>(&high_level_); }
 
-  // Return the scan of conversions, the phase, whether the shown state is that of tick t, and
-  // whether a valve is certainly driven at t, if it is not the start of a period.
+  // Returns the scan of conversions.
   signals::Scan scan() const noexcept { return boards_.scan(); }
-  control::Phase phase() const noexcept { return boards_.phase(); }
-  bool has_state_of(signals::Tick t) const noexcept { return boards_.has_state_of(t); }
-  bool drives_at(signals::Tick t) const noexcept { return boards_.drives_at(t); }
   // Returns the tick of the first sample if one is taken every `period`: for a robot, if `period`
   // is a multiple of the scan's, the tick of the scan's last reading, at which the last law runs;
   // else 0.
@@ -59,10 +55,6 @@ class Controllers {
     snapshot.desired = gait()->desired();
     use(snapshot);
   }
-
-  // Return the counters of all boards, and those of their supervisors.
-  ControllerTotals controller_totals() const { return boards_.controller_totals(); }
-  SupervisedTotals supervised_totals() const { return boards_.supervised_totals(); }
 
   // Returns the settings that can be changed during a run, by number; empty for a stand.
   const std::vector<gait::Setting>& settings() const noexcept;

@@ -71,7 +71,7 @@ class Episodes::Running {
       next_part_ += episode_->part();
     }
     return bounds_->before(s.controllers().scan(), s.next(), false,
-                           s.controllers().drives_at(s.next()));
+                           s.controllers().boards().drives_at(s.next()));
   }
 
   void observe(std::span<double> observed, std::span<double> measured) {

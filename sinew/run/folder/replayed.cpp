@@ -103,8 +103,6 @@ namespace {
 using report::TextTable;
 using Align = TextTable::Align;
 
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
 // --- JSON ---
 
 Json json_of(const analysis::EdgeComparison& c) {
@@ -135,13 +133,13 @@ Json divergence_of(const analysis::Divergence& p) {
           {"same", d.same},
           {"parts_at_s", p.at ? Json(*p.at) : Json()},
           {"band", p.band},
-          {"rms", number_or_null(d.rms)},
-          {"bias", number_or_null(d.bias)},
-          {"largest", number_or_null(d.largest)},
-          {"largest_at_s", number_or_null(d.at)},
+          {"rms", d.rms},
+          {"bias", d.bias},
+          {"largest", d.largest},
+          {"largest_at_s", d.at},
           {"span", d.span},
-          {"correlation", number_or_null(d.correlation)},
-          {"rms_by_tenth", Json::array(p.growth, number_or_null)}};
+          {"correlation", d.correlation},
+          {"rms_by_tenth", p.growth}};
 }
 
 // --- text ---

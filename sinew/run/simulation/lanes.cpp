@@ -38,7 +38,8 @@ class Lane {
     const Tick t = simulation_.next();
     if (run_.ended() || t >= simulation_.last()) return plant::Batch::finished;
     const Controllers& controllers = simulation_.controllers();
-    return bounds_.before(controllers.scan(), t, run_.samples(t), controllers.drives_at(t));
+    return bounds_.before(controllers.scan(), t, run_.samples(t),
+                          controllers.boards().drives_at(t));
   }
 
   Outcome finish() {

@@ -52,8 +52,8 @@ void add_end(const experiment::Experiment& experiment, const Controllers& contro
     out.table = recorder->take();
     out.no_room = recorder->problem();
   }
-  out.controller = controllers.controller_totals();
-  out.supervised = controllers.supervised_totals();
+  out.controller = controllers.boards().controller_totals();
+  out.supervised = controllers.boards().supervised_totals();
   out.duration = static_cast<double>(last) * signals::tick_seconds;
   if (const HighLevel* gait = controllers.gait()) {
     out.changes = gait->changes().all();

@@ -129,7 +129,7 @@ signals::Table Recorder::take() {
 // Begins a row; returns false for the message of a remote board that is lost.
 bool Recorder::begin_sample(Tick t) noexcept {
   next_ += period_;
-  if (!controllers_.has_state_of(t)) return false;
+  if (!controllers_.boards().has_state_of(t)) return false;
   now_ns_ = t * signals::tick_nanoseconds;
   keep(row_time_ns_, now_ns_);
   number_ = 0;

@@ -87,8 +87,8 @@ PlantReplay replay_plant(const experiment::Experiment& e, const signals::Table& 
   out.outcome.status = controllers.visit(
       [&](auto& level) { return loop(controllers.boards(), level, body, clock, watch, end); });
   out.outcome.failure = machine.failure();
-  out.outcome.controller = controllers.controller_totals();
-  out.outcome.supervised = controllers.supervised_totals();
+  out.outcome.controller = controllers.boards().controller_totals();
+  out.outcome.supervised = controllers.boards().supervised_totals();
   out.outcome.nodes = machine.nodes();
   out.outcome.table = recorder.take();
   out.outcome.no_room = recorder.problem();

@@ -89,7 +89,7 @@ Simulation::Simulation(const experiment::Experiment& experiment, plant::RemoteBo
 
 bool Simulation::ended() const noexcept {
   return tick_ >= last_ || loop_.status != signals::Status::ok ||
-         controllers_.phase() == control::Phase::off;
+         controllers_.boards().phase() == control::Phase::off;
 }
 
 void Simulation::advance_to(Tick tick) noexcept {
@@ -162,8 +162,8 @@ std::string Simulation::cause() const {
   Outcome so_far;
   so_far.status = loop_.status;
   so_far.failure = failure();
-  so_far.controller = controllers_.controller_totals();
-  so_far.supervised = controllers_.supervised_totals();
+  so_far.controller = controllers_.boards().controller_totals();
+  so_far.supervised = controllers_.boards().supervised_totals();
   so_far.duration = time();
   return so_far.ended_early() ? cause_of(experiment_, so_far) : "";
 }
