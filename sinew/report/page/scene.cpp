@@ -15,6 +15,7 @@ namespace {
 
 using analysis::Column;
 using analysis::Record;
+using robot::Point;
 
 Column constant(double value, const Record& record) {
   Column out = record.new_column();
@@ -32,8 +33,18 @@ Column first_of(const Record& record, std::initializer_list<const char*> topics)
   return {};
 }
 
-}  // namespace
+// Pose of the machine at every row of a log.
+struct Poses {
+  std::vector<Column> angle;  // angle of every joint [rad]; empty if unknown
+  Column trolley, lift;       // x and y of the body [m]; zeros if it is fixed
+  bool is_true = false;       // true angles, not measured ones
 
+  // Returns whether the log has the pose.
+  bool known() const { return !angle.empty(); }
+};
+
+// Returns the poses, from the true angles if the log has them, else from measured ones. A joint
+// without a measured angle stays at its rest angle if another joint has one.
 Poses poses(const analysis::Machine& machine, const Record& record) {
   Poses out;
   std::vector<Column> angle;
@@ -53,11 +64,6 @@ Poses poses(const analysis::Machine& machine, const Record& record) {
   out.lift = or_zeros(first_of(record, {"/true/cylinder/position", "/cylinder/position"}), record);
   return out;
 }
-
-namespace {
-
-using analysis::Column;
-using robot::Point;
 
 // Adds a series at the record's rows to `drawn`.
 Channel draw(signals::Table& drawn, const analysis::Record& record, const std::string& name,

@@ -103,19 +103,4 @@ struct Scene {
 Scene scene(const Channels& channels, const analysis::Machine& machine,
             const analysis::Record& record, signals::Table& drawn);
 
-// Pose of the machine at every row of a log.
-
-struct Poses {
-  std::vector<analysis::Column> angle;  // angle of every joint [rad]; empty if unknown
-  analysis::Column trolley, lift;       // x and y of the body [m]; zeros if it is fixed
-  bool is_true = false;                 // true angles, not measured ones
-
-  // Returns whether the log has the pose.
-  bool known() const { return !angle.empty(); }
-};
-
-// Returns the poses, from the true angles if the log has them, else from measured ones. A joint
-// without a measured angle stays at its rest angle if another joint has one.
-Poses poses(const analysis::Machine& machine, const analysis::Record& record);
-
 }  // namespace sinew::report

@@ -14,8 +14,7 @@ constexpr double stiffness_unit = units::pound_force * units::inch;
 // Rounds, since a whole percentage may be inexact: 0.29 x 100 = 28.999...
 int percent(double share) { return static_cast<int>(std::lround(share * 100.0)); }
 
-}  // namespace
-
+// Returns the scales and offsets that the robot's file gives its controller.
 AssumedScales assumed_scales(const robot::Robot& robot) {
   AssumedScales b;
   const auto sensor = [&](int s) -> const robot::Sensor& {
@@ -44,6 +43,8 @@ AssumedScales assumed_scales(const robot::Robot& robot) {
   }
   return b;
 }
+
+}  // namespace
 
 HighLevel::HighLevel(const robot::Robot& robot, const gait::Plan& plan, Steering* steering)
     : joints_(static_cast<int>(robot.joints.size())),

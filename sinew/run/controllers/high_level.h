@@ -24,9 +24,6 @@ struct AssumedScales {
   int cylinder_channel = -1;
 };
 
-// Returns the scales and offsets that the robot's file gives its controller.
-AssumedScales assumed_scales(const robot::Robot& robot);
-
 class HighLevel {
  public:
   // `steering` may be null.

@@ -114,13 +114,14 @@ std::string metadata_in(const std::filesystem::path& log, std::string_view name)
   return "";
 }
 
+// Returns why the log's run ended early, as formulated by cause_of(); empty if it was finished.
+std::string ended_in(const std::filesystem::path& log) { return metadata_in(log, "ended"); }
+
 }  // namespace
 
 std::string experiment_in(const std::filesystem::path& log) {
   return metadata_in(log, "experiment");
 }
-
-std::string ended_in(const std::filesystem::path& log) { return metadata_in(log, "ended"); }
 
 void require_finished(const std::filesystem::path& log) {
   const std::string ended = ended_in(log);

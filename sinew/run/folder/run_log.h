@@ -55,11 +55,8 @@ signals::Table logged_part(signals::Table&& table, const LoggedTopics& logged);
 void write(log::Writer& log, const signals::Table& table, const LoggedTopics& logged);
 
 // Returns the name of the experiment in a log; empty if it has none. Throws log::Error if the log
-// cannot be read, as do the next two.
+// cannot be read, as does the next one.
 std::string experiment_in(const std::filesystem::path& log);
-
-// Returns why the log's run ended early, as formulated by cause_of(); empty if it was finished.
-std::string ended_in(const std::filesystem::path& log);
 
 // Throws std::runtime_error if the log's run ended early, for uses that require a finished run.
 void require_finished(const std::filesystem::path& log);
