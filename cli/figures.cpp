@@ -17,6 +17,7 @@
 #include "sinew/run/folder/drawn_run.h"
 #include "sinew/run/folder/figure_files.h"
 #include "sinew/run/folder/files.h"
+#include "sinew/run/folder/run_folder.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::cli {
