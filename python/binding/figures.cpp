@@ -4,9 +4,9 @@
 #include "python/binding/recording.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/report/compare/comparison.h"
-#include "sinew/run/folder/page.h"
 #include "sinew/run/folder/drawn_run.h"
 #include "sinew/run/folder/files.h"
+#include "sinew/run/folder/page.h"
 
 namespace sinew::python {
 
