@@ -87,8 +87,8 @@ using What = gait::Setting::What;
 
 constexpr double whole_turn = 2 * std::numbers::pi;  // [rad]
 
-// What the page shows of a kind of setting: its name, and the range of its slider if the plan has
-// only zeros, about the largest value of the thesis.
+// The name of a kind of setting on the page, and the range of its slider if the plan has only
+// zeros: about the largest value of the thesis.
 struct Shown {
   std::string_view name;
   double usual;
