@@ -15,10 +15,10 @@ namespace sinew::identify {
 
 namespace {
 
-const ColumnSpec creep_specs[] = {
-    {.name = "time", .unit = "s", .doc = "from before the pressure rises"},
-    {.name = "force", .unit = "N", .least = 0.05, .most = 2e4, .doc = "tension of the muscle"},
-    {.name = "pressure", .unit = "Pa gauge", .least = 1e4, .most = 5e6, .doc = "in the muscle"},
+constexpr ColumnSpec creep_specs[] = {
+    {"time", "s", 0, 0, needed_column, "from before the pressure rises"},
+    {"force", "N", 0.05, 2e4, needed_column, "tension of the muscle"},
+    {"pressure", "Pa gauge", 1e4, 5e6, needed_column, "in the muscle"},
 };
 
 // Structure of a candidate model: number of creep elements, and with or without friction.
@@ -88,40 +88,16 @@ std::vector<double> force(const Held& held, const Form& form, std::span<const do
 std::vector<Parameter> parameters(const Held& held, const Form& form) {
   const double top = held.top, pull = held.pull;
   const double span = held.time.back() - held.time.front();
-  std::vector<Parameter> out{
-      {.name = "slope", .unit = "N/Pa", .start = 2 * pull / top, .low = 0, .scale = pull / top},
-      {.name = "threshold",
-       .unit = "Pa diff",
-       .start = 0.5 * top,
-       .low = 0,
-       .high = 0.999 * top,
-       .scale = 0.1 * top}};
+  std::vector<Parameter> out{{"slope", "N/Pa", 2 * pull / top, 0, unbounded, pull / top},
+                             {"threshold", "Pa diff", 0.5 * top, 0, 0.999 * top, 0.1 * top}};
   if (form.friction)
-    out.push_back({.name = "half_width",
-                   .unit = "Pa diff",
-                   .start = 0.01 * top,
-                   .low = 0,
-                   .high = 0.3 * top,
-                   .scale = 0.01 * top,
-                   .may_widen = true});
+    out.push_back({"half_width", "Pa diff", 0.01 * top, 0, 0.3 * top, 0.01 * top, true});
   constexpr std::string_view shares[] = {"share_1", "share_2"};
   constexpr std::string_view times[] = {"time_1", "time_2"};
   for (int k = 0; k < form.elements; ++k) {
     const double tau = span * (form.elements == 1 ? 0.1 : k == 0 ? 0.02 : 0.3);
-    out.push_back({.name = std::string(shares[k]),
-                   .unit = "1",
-                   .start = 0.05,
-                   .low = 0,
-                   .high = 2,
-                   .scale = 0.1,
-                   .may_widen = true});
-    out.push_back({.name = std::string(times[k]),
-                   .unit = "s",
-                   .start = tau,
-                   .low = 1e-3 * span,
-                   .high = 2 * span,
-                   .scale = tau,
-                   .may_widen = true});
+    out.push_back({std::string(shares[k]), "1", 0.05, 0, 2, 0.1, true});
+    out.push_back({std::string(times[k]), "s", tau, 1e-3 * span, 2 * span, tau, true});
   }
   return out;
 }

@@ -14,13 +14,10 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr std::array geometry_specs{
-    ColumnSpec{.name = "length",
-               .unit = "m",
-               .least = 5e-3,
-               .most = 5,
-               .doc = "of the mesh between its ends"},
-    ColumnSpec{.name = "diameter", .unit = "m", .least = 5e-4, .most = 0.5, .doc = "of the mesh"}};
+constexpr ColumnSpec geometry_specs[] = {
+    {"length", "m", 5e-3, 5, needed_column, "of the mesh between its ends"},
+    {"diameter", "m", 5e-4, 0.5, needed_column, "of the mesh"},
+};
 
 struct Line {
   double at_zero = 0, slope = 0;

@@ -81,42 +81,57 @@ const StaticModel models[] = {
      {threshold, saturating_tension, saturation_length, series, toe}},
 };
 
-struct Info {
+// A parameter: its name, its key and unit in a file, its place, and whether its bounds are those of
+// a possible law - a tension that grows with the pressure, a braid that is longer than the muscle,
+// ends that leave some of the muscle - or a guess. One length does not determine a parameter that
+// acts over the length.
+struct ParameterRow {
   std::string_view name, key, unit;
-};
-constexpr std::array infos = {
-    Info{"thread_length", "braid.thread_length", "m"},
-    Info{"turns", "braid.turns", "1"},
-    Info{"effectiveness_c0", "effectiveness.polynomial", "1"},
-    Info{"effectiveness_c1", "effectiveness.polynomial", "1/Pa"},
-    Info{"effectiveness_c2", "effectiveness.polynomial", "1/Pa2"},
-    Info{"threshold", "effectiveness.threshold", "Pa diff"},
-    Info{"bladder_stiffness", "bladder.stiffness", "N/m"},
-    Info{"bladder_rest_length", "bladder.rest_length", "m"},
-    Info{"bladder_quadratic", "bladder.quadratic", "N/m2"},
-    Info{"bladder_cubic", "bladder.cubic", "N/m3"},
-    Info{"saturating_tension", "bladder.saturating_tension", "N"},
-    Info{"saturation_length", "bladder.saturation_length", "m"},
-    Info{"caps_length", "caps.length", "m"},
-    Info{"taper_gain", "taper.gain", "1"},
-    Info{"taper_extra_gain", "taper.extra_gain", "1"},
-    Info{"taper_extra_pressure", "taper.extra_pressure", "Pa diff"},
-    Info{"wall_thickness", "wall.thickness", "m"},
-    Info{"half_width", "hysteresis.half_width", "Pa diff"},
-    Info{"width_per_pressure", "hysteresis.width_per_pressure", "1"},
-    Info{"width_per_tension", "hysteresis.width_per_tension", "1"},
-    Info{"end_loss", "", "m"},
-    Info{"series_compliance", "series.compliance", "m/N"},
-    Info{"toe_tension", "toe.tension", "N"},
+  double& (*of)(StaticSetting& setting);
+  bool may_widen, is_over_length;
 };
 
-// Bounds of these are those of a law that is feasible: a tension that grows with the pressure, a
-// braid that is longer than the muscle, and ends that leave some of the muscle.
-constexpr FreeParameter feasible[] = {thread_length, eff_linear,       end_loss,
-                                      taper_gain,    taper_extra_gain, taper_extra_pressure};
+// Returns the place of a value in a part of the actuator.
+template <auto Part, auto Member>
+double& place_in(StaticSetting& setting) {
+  return setting.actuator.*Part.*Member;
+}
 
-const Info& info(FreeParameter free_parameter) {
-  return infos[static_cast<std::size_t>(free_parameter)];
+double& end_loss_of(StaticSetting& setting) { return setting.end_loss; }
+
+using actuator::Actuator;
+constexpr bool possible = false, guessed = true, at_one = false, over_length = true;
+
+// clang-format off
+constexpr ParameterRow parameter_rows[] = {  // in the order of FreeParameter
+    {"thread_length",        "braid.thread_length",           "m",       place_in<&Actuator::braid, &actuator::Braid::thread_length>,                possible, over_length},
+    {"turns",                "braid.turns",                   "1",       place_in<&Actuator::braid, &actuator::Braid::turns>,                        guessed,  at_one},
+    {"effectiveness_c0",     "effectiveness.polynomial",      "1",       place_in<&Actuator::effectiveness, &actuator::Effectiveness::c0>,           guessed,  at_one},
+    {"effectiveness_c1",     "effectiveness.polynomial",      "1/Pa",    place_in<&Actuator::effectiveness, &actuator::Effectiveness::c1>,           possible, at_one},
+    {"effectiveness_c2",     "effectiveness.polynomial",      "1/Pa2",   place_in<&Actuator::effectiveness, &actuator::Effectiveness::c2>,           guessed,  at_one},
+    {"threshold",            "effectiveness.threshold",       "Pa diff", place_in<&Actuator::effectiveness, &actuator::Effectiveness::threshold>,    guessed,  at_one},
+    {"bladder_stiffness",    "bladder.stiffness",             "N/m",     place_in<&Actuator::bladder, &actuator::Bladder::stiffness>,                guessed,  over_length},
+    {"bladder_rest_length",  "bladder.rest_length",           "m",       place_in<&Actuator::bladder, &actuator::Bladder::rest_length>,              guessed,  over_length},
+    {"bladder_quadratic",    "bladder.quadratic",             "N/m2",    place_in<&Actuator::bladder, &actuator::Bladder::quadratic>,                guessed,  over_length},
+    {"bladder_cubic",        "bladder.cubic",                 "N/m3",    place_in<&Actuator::bladder, &actuator::Bladder::cubic>,                    guessed,  over_length},
+    {"saturating_tension",   "bladder.saturating_tension",    "N",       place_in<&Actuator::bladder, &actuator::Bladder::saturating_tension>,       guessed,  over_length},
+    {"saturation_length",    "bladder.saturation_length",     "m",       place_in<&Actuator::bladder, &actuator::Bladder::saturation_length>,        guessed,  over_length},
+    {"caps_length",          "caps.length",                   "m",       place_in<&Actuator::caps, &actuator::Caps::length>,                         guessed,  over_length},
+    {"taper_gain",           "taper.gain",                    "1",       place_in<&Actuator::taper, &actuator::Taper::gain>,                         possible, over_length},
+    {"taper_extra_gain",     "taper.extra_gain",              "1",       place_in<&Actuator::taper, &actuator::Taper::extra_gain>,                   possible, over_length},
+    {"taper_extra_pressure", "taper.extra_pressure",          "Pa diff", place_in<&Actuator::taper, &actuator::Taper::extra_pressure>,               possible, over_length},
+    {"wall_thickness",       "wall.thickness",                "m",       place_in<&Actuator::wall, &actuator::Wall::thickness>,                      guessed,  over_length},
+    {"half_width",           "hysteresis.half_width",         "Pa diff", place_in<&Actuator::hysteresis, &actuator::Hysteresis::half_width>,         guessed,  at_one},
+    {"width_per_pressure",   "hysteresis.width_per_pressure", "1",       place_in<&Actuator::hysteresis, &actuator::Hysteresis::width_per_pressure>, guessed,  at_one},
+    {"width_per_tension",    "hysteresis.width_per_tension",  "1",       place_in<&Actuator::hysteresis, &actuator::Hysteresis::width_per_tension>,  guessed,  at_one},
+    {"end_loss",             "",                              "m",       end_loss_of,                                                          possible, at_one},
+    {"series_compliance",    "series.compliance",             "m/N",     place_in<&Actuator::series, &actuator::Series::compliance>,                 guessed,  over_length},
+    {"toe_tension",          "toe.tension",                   "N",       place_in<&Actuator::toe, &actuator::Toe::tension>,                          guessed,  at_one},
+};
+// clang-format on
+
+const ParameterRow& row_of(FreeParameter free_parameter) {
+  return parameter_rows[static_cast<std::size_t>(free_parameter)];
 }
 
 // Returns n of a braid that has the full scale force at its rest length and the highest pressure.
@@ -124,6 +139,44 @@ double likely_turns(const StaticScales& s, double thread_length) {
   const double l = s.rest_length;
   const double area = s.top_pressure * (3 * l * l - thread_length * thread_length);
   return std::sqrt(area / (4 * std::numbers::pi * s.full_scale));
+}
+
+// Start value, bounds and scale of a parameter.
+struct SearchRange {
+  double start, low, high, scale;
+};
+
+// Returns the range of each parameter.
+std::array<SearchRange, std::size(parameter_rows)> ranges_of(const StaticScales& s) {
+  const double l = s.rest_length, f = s.full_scale, p = s.top_pressure;
+  const double n = likely_turns(s, 1.15 * l);
+  // clang-format off
+  return {{
+      {1.15 * l, 1.04 * l, 1.7 * l, 0.1 * l},                                     // thread_length
+      {n, 0.05 * n, 5 * n, 0.1 * n},                                              // turns
+      {1, 0.05, 5, 0.1},                                                          // effectiveness_c0
+      {0, -0.6 / p, 20 / p, 0.1 / p},                                             // effectiveness_c1
+      {0, -20 / (p * p), 20 / (p * p), 0.1 / (p * p)},                            // effectiveness_c2
+      {0.05 * p, 0, 0.5 * p, 0.02 * p},                                           // threshold
+      {0.3 * f / l, 0, 20 * f / l, 0.1 * f / l},                                  // bladder_stiffness
+      {l, 0.2 * l, 3 * l, 0.05 * l},                                              // bladder_rest_length
+      {0, -500 * f / (l * l), 500 * f / (l * l), f / (l * l)},                    // bladder_quadratic
+      {0, -1e4 * f / (l * l * l), 1e4 * f / (l * l * l), 10 * f / (l * l * l)},   // bladder_cubic
+      {0.2 * f, 0, 3 * f, 0.1 * f},                                               // saturating_tension
+      {0.022 * l, 0.003 * l, 0.3 * l, 0.01 * l},                                  // saturation_length
+      {0.02 * l, 0, 0.5 * l, 0.02 * l},                                           // caps_length
+      {1.1, 0.3, 3, 0.1},                                                         // taper_gain
+      {0.1, 0, 5, 0.1},                                                           // taper_extra_gain
+      {0.2 * p, 0.02 * p, 3 * p, 0.1 * p},                                        // taper_extra_pressure
+      {0.005 * l, 0, 0.05 * l, 0.005 * l},                                        // wall_thickness
+      {0.01 * p, 0, 0.3 * p, 0.01 * p},                                           // half_width
+      {0.01, 0, 0.3, 0.01},                                                       // width_per_pressure
+      {0.01, 0, 0.2, 0.01},                                                       // width_per_tension; at most 0.4 in a file
+      {0, -0.3 * l, 0.15 * l, 0.02 * l},                                          // end_loss
+      {0.005 * l / f, 1e-5 * l / f, 0.2 * l / f, 0.01 * l / f},                   // series_compliance
+      {0.04 * f, 0.002 * f, 0.3 * f, 0.01 * f},                                   // toe_tension
+  }};
+  // clang-format on
 }
 
 }  // namespace
@@ -143,123 +196,19 @@ std::vector<FreeParameter> free_parameters_of(const StaticModel& model,
   return out;
 }
 
-std::string_view key_of(FreeParameter free_parameter) { return info(free_parameter).key; }
+std::string_view key_of(FreeParameter free_parameter) { return row_of(free_parameter).key; }
 
 double& value_of(StaticSetting& setting, FreeParameter free_parameter) {
-  actuator::Actuator& a = setting.actuator;
-  switch (free_parameter) {
-    case thread_length:
-      return a.braid.thread_length;
-    case turns:
-      return a.braid.turns;
-    case eff_constant:
-      return a.effectiveness.c0;
-    case eff_linear:
-      return a.effectiveness.c1;
-    case eff_quadratic:
-      return a.effectiveness.c2;
-    case threshold:
-      return a.effectiveness.threshold;
-    case stiffness:
-      return a.bladder.stiffness;
-    case bladder_rest_length:
-      return a.bladder.rest_length;
-    case quadratic:
-      return a.bladder.quadratic;
-    case cubic:
-      return a.bladder.cubic;
-    case saturating_tension:
-      return a.bladder.saturating_tension;
-    case saturation_length:
-      return a.bladder.saturation_length;
-    case caps:
-      return a.caps.length;
-    case taper_gain:
-      return a.taper.gain;
-    case taper_extra_gain:
-      return a.taper.extra_gain;
-    case taper_extra_pressure:
-      return a.taper.extra_pressure;
-    case wall:
-      return a.wall.thickness;
-    case half_width:
-      return a.hysteresis.half_width;
-    case width_per_pressure:
-      return a.hysteresis.width_per_pressure;
-    case width_per_tension:
-      return a.hysteresis.width_per_tension;
-    case series:
-      return a.series.compliance;
-    case toe:
-      return a.toe.tension;
-    case end_loss:
-      break;
-  }
-  return setting.end_loss;
+  return row_of(free_parameter).of(setting);
 }
 
-Parameter parameter_of(FreeParameter free_parameter, const StaticScales& s) {
-  const double l = s.rest_length, f = s.full_scale, p = s.top_pressure;
-  const auto make = [&](double start, double low, double high, double scale) {
-    return Parameter{
-        .name = std::string(info(free_parameter).name),
-        .unit = std::string(info(free_parameter).unit),
-        .start = start,
-        .low = low,
-        .high = high,
-        .scale = scale,
-        .may_widen = std::ranges::find(feasible, free_parameter) == std::end(feasible)};
-  };
-  const double n = likely_turns(s, 1.15 * l);
-  switch (free_parameter) {
-    case thread_length:
-      return make(1.15 * l, 1.04 * l, 1.7 * l, 0.1 * l);
-    case turns:
-      return make(n, 0.05 * n, 5 * n, 0.1 * n);
-    case eff_constant:
-      return make(1, 0.05, 5, 0.1);
-    case eff_linear:
-      return make(0, -0.6 / p, 20 / p, 0.1 / p);
-    case eff_quadratic:
-      return make(0, -20 / (p * p), 20 / (p * p), 0.1 / (p * p));
-    case threshold:
-      return make(0.05 * p, 0, 0.5 * p, 0.02 * p);
-    case stiffness:
-      return make(0.3 * f / l, 0, 20 * f / l, 0.1 * f / l);
-    case bladder_rest_length:
-      return make(l, 0.2 * l, 3 * l, 0.05 * l);
-    case quadratic:
-      return make(0, -500 * f / (l * l), 500 * f / (l * l), f / (l * l));
-    case cubic:
-      return make(0, -1e4 * f / (l * l * l), 1e4 * f / (l * l * l), 10 * f / (l * l * l));
-    case saturating_tension:
-      return make(0.2 * f, 0, 3 * f, 0.1 * f);
-    case saturation_length:
-      return make(0.022 * l, 0.003 * l, 0.3 * l, 0.01 * l);
-    case caps:
-      return make(0.02 * l, 0, 0.5 * l, 0.02 * l);
-    case taper_gain:
-      return make(1.1, 0.3, 3, 0.1);
-    case taper_extra_gain:
-      return make(0.1, 0, 5, 0.1);
-    case taper_extra_pressure:
-      return make(0.2 * p, 0.02 * p, 3 * p, 0.1 * p);
-    case wall:
-      return make(0.005 * l, 0, 0.05 * l, 0.005 * l);
-    case half_width:
-      return make(0.01 * p, 0, 0.3 * p, 0.01 * p);
-    case width_per_pressure:
-      return make(0.01, 0, 0.3, 0.01);
-    case width_per_tension:
-      return make(0.01, 0, 0.2, 0.01);  // widened at most to 0.4, the largest value of a file
-    case end_loss:
-      return make(0, -0.3 * l, 0.15 * l, 0.02 * l);
-    case series:
-      return make(0.005 * l / f, 1e-5 * l / f, 0.2 * l / f, 0.01 * l / f);
-    case toe:
-      return make(0.04 * f, 0.002 * f, 0.3 * f, 0.01 * f);
-  }
-  return {};
+bool needs_lengths(FreeParameter free_parameter) { return row_of(free_parameter).is_over_length; }
+
+Parameter parameter_of(FreeParameter free_parameter, const StaticScales& scales) {
+  const ParameterRow& row = row_of(free_parameter);
+  const auto [start, low, high, scale] =
+      ranges_of(scales)[static_cast<std::size_t>(free_parameter)];
+  return {std::string(row.name), std::string(row.unit), start, low, high, scale, row.may_widen};
 }
 
 std::optional<Prior> prior_of(FreeParameter free_parameter, const StaticScales& s) {
@@ -287,27 +236,6 @@ double rest_length_of(const StaticSetting& setting, double labelled) {
   for (const RestLengthError& r : setting.rest_lengths)
     if (std::abs(r.labelled - labelled) < same_label) return labelled + r.error;
   return labelled;
-}
-
-bool needs_lengths(FreeParameter free_parameter) {
-  switch (free_parameter) {
-    case thread_length:
-    case stiffness:
-    case bladder_rest_length:
-    case quadratic:
-    case cubic:
-    case saturating_tension:
-    case saturation_length:
-    case caps:
-    case taper_gain:
-    case taper_extra_gain:
-    case taper_extra_pressure:
-    case wall:
-    case series:
-      return true;
-    default:
-      return false;
-  }
 }
 
 StaticSetting setting_of(const StaticScales& s) {

@@ -14,4 +14,7 @@ using recording::read_measured;
 using recording::Source;
 using recording::text_of;
 
+// Whether a row of a list of ColumnSpec is optional: {"angle", "rad", 0.01, 7, needed_column, …}.
+inline constexpr bool needed_column = false, optional_column = true;
+
 }  // namespace sinew::identify

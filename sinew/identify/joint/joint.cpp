@@ -200,26 +200,14 @@ std::vector<Combination> combinations_of(const Solution& s) {
   return out;
 }
 
-constexpr std::array columns{
-    ColumnSpec{.name = "angle", .unit = "rad", .least = 0.01, .most = 7, .doc = "of the joint"},
-    ColumnSpec{.name = "flexor_pressure",
-               .unit = "Pa abs",
-               .least = 5e4,
-               .most = 5e6,
-               .optional = true,
-               .doc = "in the muscle that flexes"},
-    ColumnSpec{.name = "extensor_pressure",
-               .unit = "Pa abs",
-               .least = 5e4,
-               .most = 5e6,
-               .optional = true,
-               .doc = "in the muscle that extends"},
-    ColumnSpec{.name = "torque",
-               .unit = "N m",
-               .optional = true,
-               .doc = "of all loads on the joint, raises the angle > 0"},
-    ColumnSpec{.name = "load", .unit = "kg", .optional = true, .doc = "hanging at the lever"},
-    ColumnSpec{.name = "time", .unit = "s", .optional = true, .doc = "of a joint that moves"}};
+constexpr ColumnSpec columns[] = {
+    {"angle", "rad", 0.01, 7, needed_column, "of the joint"},
+    {"flexor_pressure", "Pa abs", 5e4, 5e6, optional_column, "in the muscle that flexes"},
+    {"extensor_pressure", "Pa abs", 5e4, 5e6, optional_column, "in the muscle that extends"},
+    {"torque", "N m", 0, 0, optional_column, "of all loads on the joint, raises the angle > 0"},
+    {"load", "kg", 0, 0, optional_column, "hanging at the lever"},
+    {"time", "s", 0, 0, optional_column, "of a joint that moves"},
+};
 
 // A parameter with a wider 95 % interval, relative to its value, is not determined.
 constexpr double widest_interval = 0.25;
@@ -440,7 +428,7 @@ void refuse_other_columns(const Measured& data, const Measured& held_out) {
 }  // namespace
 
 std::span<const ColumnSpec> joint_columns(bool moving) {
-  return std::span<const ColumnSpec>(columns).first(columns.size() - (moving ? 0 : 1));
+  return std::span<const ColumnSpec>(columns).first(std::size(columns) - (moving ? 0 : 1));
 }
 
 std::vector<std::string> joint_models() { return names_of_laws(laws); }

@@ -72,19 +72,13 @@ DecayFit decay_fit(const Oscillation& oscillation, double mass) {
   const double decrement =
       std::clamp(std::log(first / last) / static_cast<double>(n - 2), 1e-4, 2.0);
 
+  const double center = 0.5 * (turns[n - 2].value + turns[n - 1].value);
   std::vector<Parameter> parameters{
-      {.name = "center",
-       .unit = "m",
-       .start = 0.5 * (turns[n - 2].value + turns[n - 1].value),
-       .scale = first},
-      {.name = "amplitude", .unit = "m", .start = first, .low = 0, .scale = first},
-      {.name = "decrement", .unit = "1", .start = 0.5 * decrement, .low = 0, .scale = decrement},
-      {.name = "coulomb_length",
-       .unit = "m",
-       .start = 0.1 * decrement * first,
-       .low = 0,
-       .scale = decrement * first},
-      {.name = "bend", .unit = "1/m", .scale = 0.1 / first}};
+      {"center", "m", center, -unbounded, unbounded, first},
+      {"amplitude", "m", first, 0, unbounded, first},
+      {"decrement", "1", 0.5 * decrement, 0, unbounded, decrement},
+      {"coulomb_length", "m", 0.1 * decrement * first, 0, unbounded, decrement * first},
+      {"bend", "1/m", 0, -unbounded, unbounded, 0.1 / first}};
   if (n < 7) parameters.pop_back();  // the bend
 
   std::vector<double> a(n);

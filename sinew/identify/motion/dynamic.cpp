@@ -178,17 +178,10 @@ class Dynamic {
                                        const Start& start) const {
     std::vector<Parameter> parameters;
     if (law.viscous)
-      parameters.push_back({.name = "viscous",
-                            .unit = "N s/m",
-                            .start = start.viscous,
-                            .low = 0,
-                            .scale = start_.viscous});
+      parameters.push_back({"viscous", "N s/m", start.viscous, 0, unbounded, start_.viscous});
     if (law.dry)
-      parameters.push_back({.name = "coulomb_length",
-                            .unit = "m",
-                            .start = start.coulomb_length,
-                            .low = 0,
-                            .scale = start_.coulomb_length});
+      parameters.push_back(
+          {"coulomb_length", "m", start.coulomb_length, 0, unbounded, start_.coulomb_length});
     for (const std::size_t i : which)
       for (Parameter p : swings_[i].parameters(start.nuisance[i])) {
         if (swings_.size() > 1) p.name += " of " + swings_[i].file;

@@ -19,15 +19,11 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr std::array columns{
-    ColumnSpec{.name = "time", .unit = "s", .doc = "of the sample"},
-    ColumnSpec{.name = "length", .unit = "m", .least = 5e-3, .most = 5, .doc = "of the muscle"},
-    ColumnSpec{.name = "pressure",
-               .unit = "Pa abs",
-               .least = 1e4,
-               .most = 5e6,
-               .optional = true,
-               .doc = "of the trapped air"}};
+constexpr ColumnSpec columns[] = {
+    {"time", "s", 0, 0, needed_column, "of the sample"},
+    {"length", "m", 5e-3, 5, needed_column, "of the muscle"},
+    {"pressure", "Pa abs", 1e4, 5e6, optional_column, "of the trapped air"},
+};
 
 // The static model may miss the rest by this share of the length, and the tension that follows from
 // the period by a factor within these limits.
@@ -248,25 +244,11 @@ Swing::Nuisance Swing::first_guess() const {
 
 std::array<Parameter, Swing::nuisances> Swing::parameters(const Nuisance& start) const {
   const double speed = amplitude * 2 * std::numbers::pi / oscillation.period;
-  return {Parameter{.name = "start_length",
-                    .unit = "m",
-                    .start = start[0],
-                    .low = rest - 3 * amplitude,
-                    .high = rest + 3 * amplitude,
-                    .scale = amplitude},
-          Parameter{.name = "start_velocity", .unit = "m/s", .start = start[1], .scale = speed},
-          Parameter{.name = "offset",
-                    .unit = "m",
-                    .start = start[2],
-                    .low = -0.3 * rest,
-                    .high = 0.3 * rest,
-                    .scale = amplitude},
-          Parameter{.name = "tension",
-                    .unit = "1",
-                    .start = start[3],
-                    .low = 0.9 * least_tension,
-                    .high = 1.1 * most_tension,
-                    .scale = 0.1}};
+  const double far = 3 * amplitude;
+  return {Parameter{"start_length", "m", start[0], rest - far, rest + far, amplitude},
+          Parameter{"start_velocity", "m/s", start[1], -unbounded, unbounded, speed},
+          Parameter{"offset", "m", start[2], -0.3 * rest, 0.3 * rest, amplitude},
+          Parameter{"tension", "1", start[3], 0.9 * least_tension, 1.1 * most_tension, 0.1}};
 }
 
 std::size_t Swing::samples_until(double share) const {

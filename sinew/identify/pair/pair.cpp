@@ -175,22 +175,12 @@ void PairProblem::add_physics(double stiffness) {
   add(law_.friction != PairFriction::none,
       {"friction", rotary ? "N m" : "N", tenth, 0, unbounded, tenth}, &PairValues::friction);
   add(presliding,
-      {.name = "presliding",
-       .unit = at,
-       .start = 0.01 * range_,
-       .low = std::min(finest, 1e-3 * range_),
-       .high = 2 * range_,
-       .scale = 0.01 * range_,
-       .is_scaled_by_start = true},
+      {"presliding", at, 0.01 * range_, std::min(finest, 1e-3 * range_), 2 * range_, 0.01 * range_,
+       false, true},
       &PairValues::presliding);
   add(law_.friction == PairFriction::fading,
-      {.name = "fade_time",
-       .unit = "s",
-       .start = 0.05 * duration_,
-       .low = 2 * least,
-       .high = 100 * duration_,
-       .scale = 0.05 * duration_,
-       .is_scaled_by_start = true},
+      {"fade_time", "s", 0.05 * duration_, 2 * least, 100 * duration_, 0.05 * duration_, false,
+       true},
       &PairValues::fade_time);
 }
 

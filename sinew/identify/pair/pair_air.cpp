@@ -76,28 +76,17 @@ class TrappedAir {
     };
     for (std::size_t m = 0; m < slopes(); ++m) {
       const double slope = slope_of(records_, m, rows) / mean_of(records_[0].pressure[m], rows[0]);
-      out.push_back({.name = law_.each ? name("slope", m) : "slope",
-                     .unit = per,
-                     .start = slope * sign(m, rows),
-                     .scale = std::max(std::abs(slope), 1e-6)});
+      out.push_back({law_.each ? name("slope", m) : "slope", per, slope * sign(m, rows), -unbounded,
+                     unbounded, std::max(std::abs(slope), 1e-6)});
     }
     for (std::size_t m = 0; law_.leaks && m < muscles_; ++m)
       out.push_back({.name = name("leak", m), .unit = "1/s", .scale = 1e-3});
-    out.push_back({.name = "pressure_delay",
-                   .unit = "s",
-                   .low = -0.2,
-                   .high = 0.2,
-                   .scale = 0.01,
-                   .may_widen = true});
+    out.push_back({"pressure_delay", "s", 0, -0.2, 0.2, 0.01, true});
     for (std::size_t k = 0; k < records_.size(); ++k)
       for (std::size_t m = 0; m < muscles_; ++m) {
         const double p = mean_of(records_[k].pressure[m], rows[k]);
-        out.push_back({.name = of(name("pressure", m), records_, k),
-                       .unit = "Pa abs",
-                       .start = p,
-                       .low = 0.5 * p,
-                       .high = 2 * p,
-                       .scale = 0.01 * p});
+        out.push_back(
+            {of(name("pressure", m), records_, k), "Pa abs", p, 0.5 * p, 2 * p, 0.01 * p});
       }
     return out;
   }

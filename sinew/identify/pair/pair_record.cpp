@@ -15,43 +15,15 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr std::array columns{ColumnSpec{.name = "time", .unit = "s", .doc = "of the sample"},
-                             ColumnSpec{.name = "force",
-                                        .unit = "N",
-                                        .least = 1e-3,
-                                        .most = 1e6,
-                                        .optional = true,
-                                        .doc = "that moves the slide, along the displacement"},
-                             ColumnSpec{.name = "displacement",
-                                        .unit = "m",
-                                        .least = 1e-6,
-                                        .most = 2,
-                                        .optional = true,
-                                        .doc = "of the slide from anywhere"},
-                             ColumnSpec{.name = "torque",
-                                        .unit = "N m",
-                                        .least = 1e-5,
-                                        .most = 1e5,
-                                        .optional = true,
-                                        .doc = "that moves the joint, along the angle"},
-                             ColumnSpec{.name = "angle",
-                                        .unit = "rad",
-                                        .least = 1e-5,
-                                        .most = 7,
-                                        .optional = true,
-                                        .doc = "of the joint from anywhere"},
-                             ColumnSpec{.name = "pressure_1",
-                                        .unit = "Pa abs",
-                                        .least = 5e4,
-                                        .most = 5e6,
-                                        .optional = true,
-                                        .doc = "of the trapped air of one muscle"},
-                             ColumnSpec{.name = "pressure_2",
-                                        .unit = "Pa abs",
-                                        .least = 5e4,
-                                        .most = 5e6,
-                                        .optional = true,
-                                        .doc = "of the trapped air of the other"}};
+constexpr ColumnSpec columns[] = {
+    {"time", "s", 0, 0, needed_column, "of the sample"},
+    {"force", "N", 1e-3, 1e6, optional_column, "that moves the slide, along the displacement"},
+    {"displacement", "m", 1e-6, 2, optional_column, "of the slide from anywhere"},
+    {"torque", "N m", 1e-5, 1e5, optional_column, "that moves the joint, along the angle"},
+    {"angle", "rad", 1e-5, 7, optional_column, "of the joint from anywhere"},
+    {"pressure_1", "Pa abs", 5e4, 5e6, optional_column, "of the trapped air of one muscle"},
+    {"pressure_2", "Pa abs", 5e4, 5e6, optional_column, "of the trapped air of the other"},
+};
 
 constexpr std::size_t least_samples = 100;
 

@@ -32,14 +32,14 @@ struct Known {
   ColumnSpec spec;
 };
 constexpr std::array names_of_known{
-    Known{SensorKind::tension, {"load", "N", 0.01, 1e5, false, "that pulls"}},
-    Known{SensorKind::tension, {"force", "N", 0.01, 1e5, false, "that pulls"}},
-    Known{SensorKind::tension, {"tension", "N", 0.01, 1e5, false, "that pulls"}},
-    Known{SensorKind::angle, {"angle", "rad", 1e-3, 100, false, "of the joint"}},
-    Known{SensorKind::cylinder, {"length", "m", 1e-4, 10, false, "of travel"}},
-    Known{SensorKind::cylinder, {"position", "m", 1e-4, 10, false, "of travel"}},
-    Known{SensorKind::pressure, {"pressure", "Pa gauge", 100, 1e8, false, "in the muscle"}},
-    Known{SensorKind::velocity, {"velocity", "rad/s", 1e-3, 1e4, false, "of the joint"}}};
+    Known{SensorKind::tension, {"load", "N", 0.01, 1e5, needed_column, "that pulls"}},
+    Known{SensorKind::tension, {"force", "N", 0.01, 1e5, needed_column, "that pulls"}},
+    Known{SensorKind::tension, {"tension", "N", 0.01, 1e5, needed_column, "that pulls"}},
+    Known{SensorKind::angle, {"angle", "rad", 1e-3, 100, needed_column, "of the joint"}},
+    Known{SensorKind::cylinder, {"length", "m", 1e-4, 10, needed_column, "of travel"}},
+    Known{SensorKind::cylinder, {"position", "m", 1e-4, 10, needed_column, "of travel"}},
+    Known{SensorKind::pressure, {"pressure", "Pa gauge", 100, 1e8, needed_column, "in the muscle"}},
+    Known{SensorKind::velocity, {"velocity", "rad/s", 1e-3, 1e4, needed_column, "of the joint"}}};
 
 constexpr ColumnSpec time_of_reading{
     .name = "time", .unit = "s", .optional = true, .doc = "of the reading"};
