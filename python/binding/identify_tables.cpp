@@ -10,7 +10,7 @@
 #include "sinew/host/side_by_side.h"
 #include "sinew/identify/task/inputs.h"
 #include "sinew/identify/task/methods.h"
-#include "sinew/identify/task/tables.h"
+#include "sinew/identify/task/settings.h"
 #include "sinew/report/page/page.h"
 
 namespace sinew::python {

@@ -20,7 +20,6 @@
 #include "sinew/identify/actuator/static_labels.h"
 #include "sinew/identify/actuator/static_law_fitter.h"
 #include "sinew/identify/actuator/static_model.h"
-#include "sinew/identify/actuator/static_shown.h"
 #include "sinew/identify/actuator/static_spread.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@
 #include "sinew/identify/actuator/static_air.h"
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/actuator/static_fit.h"
+#include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/actuator/static_spread.h"
 #include "sinew/identify/contest/fit.h"
 
@@ -72,6 +74,12 @@ struct StaticResult {
 // Identifies the static law. Throws Refusal if the data support no model or the model's name is
 // unknown.
 StaticResult identify_static(const StaticData& data, const StaticOptions& options);
+
+// Fills in the report's curves, errors and left_out: the chosen law along each curve with its
+// intervals, its error by part, and the points that were left out. Its rows and the chosen law must
+// be set.
+void show_static(const StaticSplit& split, std::span<const StaticOmitted> left_out,
+                 StaticResult& result);
 
 // Returns the file of one muscle, sinew.actuator/1: a fitted muscle, or a similar one
 // (static_predict.h). `source` describes the origin of the data.

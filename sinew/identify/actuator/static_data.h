@@ -38,7 +38,7 @@ struct Zero {
 
 // Readings that are not among the points, for one reason.
 struct StaticOmitted {
-  std::string reason, criterion;    // as in identify/contest/evidence.h
+  std::string reason, criterion;    // as in identify/contest/fit.h
   std::size_t count = 0;            // number of readings
   std::vector<StaticPoint> points;  // these readings, or a selection
   std::vector<std::string> why;     // cause for each of `points`; may be empty

@@ -1,4 +1,5 @@
-#include "sinew/identify/actuator/static_shown.h"
+// Curves, errors by part and omitted points of the report on a static law.
+#include "sinew/identify/actuator/static.h"
 
 #include <algorithm>
 #include <cmath>

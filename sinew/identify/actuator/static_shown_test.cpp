@@ -1,6 +1,6 @@
 // A static report explains wrong points, its errors by part sum to the total, and its intervals are
 // about the law.
-#include "sinew/identify/actuator/static_shown.h"
+#include "sinew/identify/actuator/static.h"
 
 #include <gtest/gtest.h>
 

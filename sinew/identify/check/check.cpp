@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "sinew/identify/check/label.h"
 #include "sinew/identify/check/plausible.h"
 #include "sinew/identify/contest/refusal.h"
 

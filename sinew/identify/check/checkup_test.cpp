@@ -2,11 +2,11 @@
 #include "sinew/identify/check/checkup.h"
 
 #include <fmt/format.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sinew/identify/check/recognised.h"
 #include "sinew/identify/check/test_rig.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/json/json.h"

@@ -3,6 +3,7 @@
 #include "sinew/identify/check/plausible.h"
 
 #include <fmt/format.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +12,7 @@
 #include <iterator>
 #include <set>
 
-#include "sinew/identify/check/label_fit.h"
+#include "sinew/identify/check/label.h"
 #include "sinew/identify/check/test_rig.h"
 
 namespace sinew::identify::label_test {

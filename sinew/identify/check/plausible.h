@@ -17,16 +17,4 @@ void add_curve_checks(const StaticData& data, std::vector<Check>& out);
 // length is enough if the braid is known.
 void add_reach_checks(const StaticData& data, bool braid_is_known, std::vector<Check>& out);
 
-// --- labels of lengths ---
-
-// Adds checks of the labels of muscles and mounts. Two kinds of evidence:
-//
-//   - Within a muscle, the mount at rest pulls like another length would, compared with the others.
-//   - Among muscles of one make, one fits the others' law only with another rest length.
-//
-// Each gives a suspicion only: a law that fits better with another length may also be too simple.
-// The other length must explain a large part of the misfit, beyond its interval, and differ by more
-// than 1 %. For two muscles the comparison cannot show which one is mislabelled, and is not made.
-void add_label_checks(const StaticData& data, double atmosphere, std::vector<Check>& out);
-
 }  // namespace sinew::identify

@@ -7,7 +7,7 @@
 //   tau_load = - g (m l + m_limb l_limb) sin(theta - theta_down), or as measured
 //
 //   theta  joint's angle [rad]         tau_load  torque of the load, raises the angle > 0 [N m]
-//   r, DL  hinge.h                     L_m       lengths at the rest angle [m]
+//   r, DL  torque.h                    L_m       lengths at the rest angle [m]
 // For a moving joint and uncalibrated sensors: tau = bias + gain tau_m(t - delay), where tau_m is
 // the torque from the above with tau_c sign(d theta/dt) + c_j d theta/dt.
 //

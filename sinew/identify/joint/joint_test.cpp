@@ -12,7 +12,7 @@
 
 #include "sinew/actuator/thesis_actuator.h"
 #include "sinew/identify/contest/refusal.h"
-#include "sinew/identify/joint/hinge.h"
+#include "sinew/identify/joint/torque.h"
 
 namespace sinew::identify::joint_test {
 namespace {

@@ -9,7 +9,7 @@
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/data/series.h"
-#include "sinew/identify/pair/pair_rows.h"
+#include "sinew/identify/pair/pair_record.h"
 
 namespace sinew::identify {
 

@@ -5,6 +5,7 @@
 // `window`/2 of each, so they do not lag. A measured velocity, which often lags, is not used.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,5 +38,23 @@ struct PairRecord {
 // Returns the recording; `window` [s]. Throws Refusal for a recording without effort or position,
 // with both kinds, with fewer than 100 samples, without motion, or with clipped sensors.
 PairRecord pair_record(const Measured& data, double window = 0.02);
+
+// --- samples that are fitted or predicted ---
+
+// Indices of samples of a recording, ascending.
+using PairRows = std::vector<std::size_t>;
+
+// Number of time blocks that cross-validation leaves out, one after the other.
+inline constexpr std::size_t pair_blocks = 5;
+
+// Returns the samples whose time is in [from, to], or those outside.
+PairRows pair_rows(const PairRecord& record, double from, double to, bool inside);
+
+// Returns the rows of the k-th of `pair_blocks` blocks, or those of all the others.
+PairRows pair_block(const PairRows& rows, std::size_t k, bool inside);
+
+// Returns the recording with every k-th sample, about 2000: more samples of a smooth series add no
+// information.
+PairRecord pair_thinned(const PairRecord& record);
 
 }  // namespace sinew::identify

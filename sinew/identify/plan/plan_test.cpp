@@ -10,7 +10,6 @@
 
 #include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/contest/refusal.h"
-#include "sinew/identify/plan/design.h"
 
 namespace sinew::identify::plan_test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "sinew/identify/contest/fit.h"
 #include "sinew/identify/data/averaged.h"
-#include "sinew/identify/task/tables.h"
+#include "sinew/identify/task/settings.h"
 #include "sinew/json/json.h"
 
 namespace sinew::identify {

@@ -18,7 +18,7 @@
 #include "sinew/identify/contest/provenance.h"
 #include "sinew/identify/data/averaged.h"
 #include "sinew/identify/motion/dynamic.h"
-#include "sinew/identify/task/tables.h"
+#include "sinew/identify/task/settings.h"
 #include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/units/shown.h"

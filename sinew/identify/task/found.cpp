@@ -10,7 +10,7 @@
 #include "sinew/identify/contest/provenance.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/page/fit_page.h"
-#include "sinew/identify/task/tables.h"
+#include "sinew/identify/task/settings.h"
 #include "sinew/report/text/text_table.h"
 
 namespace sinew::identify {

@@ -1,6 +1,7 @@
 #include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
+
 #include <string>
 
 #include "sinew/actuator/actuator.h"
@@ -10,7 +11,7 @@
 #include "sinew/identify/contest/fit.h"
 #include "sinew/identify/contest/provenance.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/task/tables.h"
+#include "sinew/identify/task/settings.h"
 #include "sinew/json/json.h"
 #include "sinew/units/quantity.h"
 

@@ -20,7 +20,7 @@
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/averaged.h"
 #include "sinew/identify/pair/pair.h"
-#include "sinew/identify/task/tables.h"
+#include "sinew/identify/task/settings.h"
 #include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/units/letters.h"

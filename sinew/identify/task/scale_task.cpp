@@ -11,7 +11,7 @@
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/actuator/static_predict.h"
 #include "sinew/identify/contest/provenance.h"
-#include "sinew/identify/task/tables.h"
+#include "sinew/identify/task/settings.h"
 #include "sinew/json/json.h"
 
 namespace sinew::identify {

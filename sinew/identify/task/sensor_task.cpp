@@ -12,7 +12,7 @@
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/contest/fit.h"
 #include "sinew/identify/contest/provenance.h"
-#include "sinew/identify/task/tables.h"
+#include "sinew/identify/task/settings.h"
 #include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/robot/sensor.fields.h"

@@ -13,7 +13,7 @@
 #include "sinew/identify/actuator/static_predict.h"
 #include "sinew/identify/data/averaged.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/task/tables.h"
+#include "sinew/identify/task/settings.h"
 #include "sinew/report/text/text_table.h"
 
 namespace sinew::identify {

@@ -12,7 +12,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/task/methods.h"
-#include "sinew/identify/task/tables.h"
+#include "sinew/identify/task/settings.h"
 #include "sinew/json/json.h"
 #include "tests/places.h"
 

@@ -1,6 +1,7 @@
 #include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -13,7 +14,7 @@
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/averaged.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/task/tables.h"
+#include "sinew/identify/task/settings.h"
 #include "sinew/identify/valve/added_volume.h"
 #include "sinew/identify/valve/edges.h"
 #include "sinew/identify/valve/timing.h"

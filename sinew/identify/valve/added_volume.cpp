@@ -9,7 +9,6 @@
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/valve/fill.h"
-#include "sinew/identify/valve/fill_trust.h"
 #include "sinew/units/quantity.h"
 
 namespace sinew::identify {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/identify/valve/fill_trust.h"
+#include "sinew/identify/valve/fill.h"
 #include "sinew/identify/valve/valve.h"
 
 namespace sinew::identify {

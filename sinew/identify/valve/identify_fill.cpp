@@ -8,7 +8,6 @@
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/valve/added_volume.h"
 #include "sinew/identify/valve/fill.h"
-#include "sinew/identify/valve/fill_trust.h"
 #include "sinew/units/quantity.h"
 
 namespace sinew::identify {

@@ -1,4 +1,4 @@
-// identify/check/label_fit.h - fit of a static law with one labelled length as an unknown, to test
+// identify/check/label.h - fit of a static law with one labelled length as an unknown, to test
 // whether the label is wrong.
 //
 //   F = (1 + g) F(L', p; L0')      L0' = L0 + d     L' = L0' at the mount at rest, L at the others
@@ -12,6 +12,7 @@
 
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/actuator/static_model.h"
+#include "sinew/identify/check/check.h"
 
 namespace sinew::identify {
 
@@ -42,5 +43,17 @@ LabelFit fit_labels(const std::vector<StaticPoint>& points,
 LabelFit fit_labels(const std::vector<StaticPoint>& points,
                     const std::vector<FreeParameter>& free_parameters, double atmosphere,
                     const DoubtedLabel& doubted, const LabelFit& from);
+
+// --- checks ---
+
+// Adds checks of the labels of muscles and mounts. Two kinds of evidence:
+//
+//   - Within a muscle, the mount at rest pulls like another length would, compared with the others.
+//   - Among muscles of one make, one fits the others' law only with another rest length.
+//
+// Each gives a suspicion only: a law that fits better with another length may also be too simple.
+// The other length must explain a large part of the misfit, beyond its interval, and differ by more
+// than 1 %. For two muscles the comparison cannot show which one is mislabelled, and is not made.
+void add_label_checks(const StaticData& data, double atmosphere, std::vector<Check>& out);
 
 }  // namespace sinew::identify
