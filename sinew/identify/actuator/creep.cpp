@@ -115,8 +115,7 @@ Candidate candidate_of(const Held& held, const Form& form) {
     return true;
   };
   for (const double threshold : {0.0, 0.5, 0.9}) {
-    std::vector<double> start;
-    for (const Parameter& p : out.parameters) start.push_back(p.start);
+    std::vector<double> start = starts_of(out.parameters);
     start[1] = threshold * held.top;
     start[0] = held.pull / (held.top - start[1]);
     out.starts.push_back(start);

@@ -120,10 +120,8 @@ std::string explanation_of(const StaticPoint& point, const StaticFit& fit,
     if (as.pressure < 1.5 * scales.top_pressure)
       search.compare(as, point.force, std::string(cause.words));
   }
-  double longest = 0;
-  for (const StaticPoint& p : points) longest = std::max(longest, p.length);
-  for (const StaticPoint& p : points) {
-    if (p.rest_length != point.rest_length) continue;
+  const double longest = std::max(0.0, largest(values_of(points, &StaticPoint::length)));
+  for (const StaticPoint& p : points_of(points, point.rest_length)) {
     if (std::abs(p.length - point.length) < other_mount * longest) continue;
     StaticPoint as = point;
     as.length = p.length;
@@ -159,8 +157,7 @@ struct ClosestLaw {
 // Returns the law with the smallest median distance, among the freest laws or among all others.
 ClosestLaw closest_law_of(bool free, const std::vector<StaticPoint>& points,
                           const StaticScales& scales) {
-  std::set<double> muscles;
-  for (const StaticPoint& p : points) muscles.insert(p.rest_length);
+  const bool several = muscles_in(points).size() > 1;
   ClosestLaw closest;
   for (const StaticModel& model : static_models()) {
     if (model.name == "effectiveness-by-ratio") continue;
@@ -168,7 +165,7 @@ ClosestLaw closest_law_of(bool free, const std::vector<StaticPoint>& points,
     std::vector<FreeParameter> free_parameters = free_parameters_of(model, scales);
     if (std::ranges::find(free_parameters, FreeParameter::series) != free_parameters.end())
       continue;
-    if (muscles.size() > 1) free_parameters.push_back(FreeParameter::end_loss);
+    if (several) free_parameters.push_back(FreeParameter::end_loss);
     try {
       const StaticFit fit = fit_static(free_parameters, points, scales, nullptr, 1e-7);
       const std::vector<double> d = distances(fit, scales, points);
@@ -188,8 +185,7 @@ ClosestLaw closest_law(const std::vector<StaticPoint>& points, const StaticScale
 
 // Returns the 90th percentile of the forces, which single wild points do not change.
 double common_force(const std::vector<StaticPoint>& points) {
-  std::vector<double> forces;
-  for (const StaticPoint& p : points) forces.push_back(p.force);
+  std::vector<double> forces = values_of(points, &StaticPoint::force);
   const auto at = forces.begin() + static_cast<std::ptrdiff_t>(forces.size() * 9 / 10);
   std::nth_element(forces.begin(), at, forces.end());
   return *at;
@@ -229,19 +225,13 @@ constexpr std::string_view may_be_at_bound[] = {"half_width",        "width_per_
 // Gives muscles without a rest length the longest length of the points.
 void give_rest_length(Points& points, Report& report) {
   unite_labels(points);
-  double longest = 0;
-  bool none = false, some = false;
-  for (const StaticPoint& p : points) {
-    longest = std::max(longest, p.length);
-    (p.rest_length > 0 ? some : none) = true;
-  }
-  if (!none) return;
-  if (some)
+  const std::set<double> muscles = muscles_in(points);
+  if (muscles.contains(0.0) && muscles.size() > 1)
     throw Refusal("rest length", "points with and without one", "one for every file or row",
                   "rest_length=LENGTH, or a column rest_length");
-  for (StaticPoint& p : points) p.rest_length = longest;
-  report.notes.push_back(
-      fmt::format("no rest length given: the longest, {:.4g} mm, is taken for it", 1e3 * longest));
+  if (const double longest = give_longest(points); longest > 0)
+    report.notes.push_back(fmt::format(
+        "no rest length given: the longest, {:.4g} mm, is taken for it", 1e3 * longest));
 }
 
 // Throws Refusal if the tension falls as the pressure rises: such a law cannot be used elsewhere.
@@ -384,8 +374,7 @@ std::vector<Fit> try_all(const StaticSplit& s, const StaticScales& scales,
 // Returns the number of tests of a law's form over the length: lengths between the ends of each
 // muscle, and whole muscles if there are several.
 std::size_t tests_of_form(const Points& points) {
-  std::set<double> muscles;
-  for (const StaticPoint& p : points) muscles.insert(p.rest_length);
+  const std::set<double> muscles = muscles_in(points);
   std::size_t out = muscles.size() > 1 ? muscles.size() : 0;
   for (const double muscle : muscles)
     out += std::max<std::size_t>(2, lengths_of(points, muscle).size()) - 2;
@@ -428,9 +417,7 @@ StaticSplit split_by(const Points& points, HoldOut hold_out, Report& report) {
   }
   if (hold_out == HoldOut::muscle) {
     report.held_out_is = "each muscle once, all others fitted, in % of its own largest force";
-    std::set<double> muscles;
-    for (const StaticPoint& p : s.fitted) muscles.insert(p.rest_length);
-    if (muscles.size() < 2)
+    if (muscles_in(s.fitted).size() < 2)
       throw Refusal("hold_out=muscle", "one muscle", "at least two rest lengths",
                     "a column rest_length, or files of several muscles");
   }
@@ -492,8 +479,7 @@ void set_file(const StaticFit& fit, const StaticScales& scales, const Points& po
       if (label.labelled == muscle.rest_length) label.error = error;
     const actuator::Actuator a = scaled(setting, scales, muscle.rest_length);
     std::vector<double> off, variances;
-    for (const StaticPoint& p : points) {
-      if (p.rest_length != muscle.rest_length) continue;
+    for (const StaticPoint& p : points_of(points, muscle.rest_length)) {
       off.push_back(std::max(0.0, law_force(a, p.length, p, scales.atmosphere)) - p.force);
       variances.push_back(p.variance);
     }
@@ -533,10 +519,8 @@ std::vector<StaticMuscle> muscles_of(const StaticFit& fit, const StaticScales& s
 void note_files(const StaticResult& found, Report& report) {
   constexpr double more = 1.25;
   for (const StaticMuscle& m : found.muscles) {
-    Points own;
-    for (const StaticPoint& p : found.points)
-      if (p.rest_length == m.rest_length) own.push_back(p);
-    const double full = std::ranges::max(own, {}, &StaticPoint::force).force;
+    const Points own = points_of(found.points, m.rest_length);
+    const double full = largest(values_of(own, &StaticPoint::force));
     const Score fit = score(residuals_of(found.fit.setting, found.scales, own), full);
     if (!(100 * m.rms / full > more * fit.rmse_percent)) continue;
     report.notes.push_back(fmt::format(
@@ -549,17 +533,11 @@ void note_files(const StaticResult& found, Report& report) {
 // Notes the error of the common model on each muscle.
 void note_muscles(const StaticFit& fit, const StaticScales& scales, const Points& points,
                   Report& report) {
-  std::set<double> muscles;
-  for (const StaticPoint& p : points) muscles.insert(p.rest_length);
+  const std::set<double> muscles = muscles_in(points);
   if (muscles.size() < 2) return;
   for (const double m : muscles) {
-    Points own;
-    double full = 0;
-    for (const StaticPoint& p : points)
-      if (p.rest_length == m) {
-        own.push_back(p);
-        full = std::max(full, p.force);
-      }
+    const Points own = points_of(points, m);
+    const double full = std::max(0.0, largest(values_of(own, &StaticPoint::force)));
     const Score s = score(residuals_of(fit.setting, scales, own), full);
     report.notes.push_back(fmt::format(
         "one model for all: the muscle of {:.4g} mm {:.2f} % rmse, {:.2f} % at most, of its own "

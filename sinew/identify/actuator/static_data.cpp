@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -163,15 +164,7 @@ std::vector<std::size_t> turns_of(const std::vector<double>& p, double least) {
 }
 
 // Returns running medians, so that the noise of single samples makes no turns.
-std::vector<double> smooth(const std::vector<double>& values) {
-  constexpr std::size_t half = 7;
-  std::vector<double> out(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::size_t reach = std::min({half, i, values.size() - 1 - i});
-    out[i] = median(std::span(values).subspan(i - reach, 2 * reach + 1));
-  }
-  return out;
-}
+std::vector<double> smooth(std::span<const double> values) { return running_medians(values, 7); }
 
 // Returns the zero readings: those before the pressure begins to rise.
 Zero vented_start(const std::vector<double>& p, const std::vector<double>& f, StaticData& data,
@@ -426,6 +419,36 @@ Zero add_points(const Measured& m, const StaticInput& input, StaticData& data) {
     return {};
   }
   return m.has("time") ? add_recording(m, input, data) : add_table(m, input, data);
+}
+
+std::set<double> muscles_in(std::span<const StaticPoint> points) {
+  const std::vector<double> all = values_of(points, &StaticPoint::rest_length);
+  return {all.begin(), all.end()};
+}
+
+std::vector<StaticPoint> points_of(std::span<const StaticPoint> points, double rest_length) {
+  std::vector<StaticPoint> out;
+  std::ranges::copy_if(points, std::back_inserter(out),
+                       [=](const StaticPoint& p) { return p.rest_length == rest_length; });
+  return out;
+}
+
+std::vector<double> values_of(std::span<const StaticPoint> points, double StaticPoint::*value) {
+  std::vector<double> out;
+  for (const StaticPoint& p : points) out.push_back(p.*value);
+  return out;
+}
+
+bool has_branch(std::span<const StaticPoint> points, Branch branch) {
+  return std::ranges::find(points, branch, &StaticPoint::branch) != points.end();
+}
+
+double give_longest(std::vector<StaticPoint>& points) {
+  const double longest = std::max(0.0, largest(values_of(points, &StaticPoint::length)));
+  double given = 0;
+  for (StaticPoint& p : points)
+    if (!(p.rest_length > 0)) p.rest_length = given = longest;
+  return given;
 }
 
 void sort_points(std::vector<StaticPoint>& points) {

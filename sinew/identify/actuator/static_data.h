@@ -8,6 +8,7 @@
 // rows, in which the force does not depend on the pressure.
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -66,6 +67,17 @@ std::span<const ColumnSpec> static_columns();
 // Adds a file's points. Throws Refusal for files that cannot give a static model: a clipped sensor,
 // a constant pressure, no length.
 Zero add_points(const Measured& measured, const StaticInput& input, StaticData& data);
+
+// Return the rest lengths of the muscles of these points, ascending; the points of one of them; one
+// value of each point; and whether a point is of this branch.
+std::set<double> muscles_in(std::span<const StaticPoint> points);
+std::vector<StaticPoint> points_of(std::span<const StaticPoint> points, double rest_length);
+std::vector<double> values_of(std::span<const StaticPoint> points, double StaticPoint::*value);
+bool has_branch(std::span<const StaticPoint> points, Branch branch);
+
+// Gives muscles without a rest length the longest length of the points. Returns that length; 0 if
+// each has a rest length.
+double give_longest(std::vector<StaticPoint>& points);
 
 // Sorts the points, so that the result does not depend on the order of the rows.
 void sort_points(std::vector<StaticPoint>& points);

@@ -35,22 +35,6 @@ Estimate scaled_estimate(const Estimate& e, double value) {
   return out;
 }
 
-// Adds ends, which a static measurement does not show: as stiff as in the thesis, reached at the
-// end of the data.
-void add_ends(double longest_measured, const std::string& path, actuator::Actuator& a,
-              Provenance& provenance) {
-  const double longest =
-      std::min(0.999 * (a.braid.thread_length + a.caps.length), longest_measured * 1.005);
-  a.long_end = {.length = std::max(longest, actuator::shortest_length(a)),
-                .stiffness = 87563.4,
-                .damping = 122.6};
-  a.short_end = {.stiffness = 87563.4, .damping = 122.6};
-  provenance.guessed(path + "long_end.length", "0.5 % beyond the longest length measured");
-  for (const char* end : {"long_end", "short_end"})
-    for (const char* key : {"stiffness", "damping"})
-      provenance.guessed(path + end + "." + key, "the thesis's actuator, appendix A");
-}
-
 // Adds the rest length, with its uncertainty if it was fitted and that is known.
 void add_rest_length(const StaticResult& result, const StaticMuscle& muscle,
                      const std::string& path, const std::string& source, Provenance& provenance) {
@@ -105,7 +89,10 @@ std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
   if (!(a.bladder.saturating_tension > 0)) a.bladder.saturation_length = 0;
   if (!actuator::tapers(a.taper)) a.taper = {};
   if (!(a.taper.extra_gain > 0)) a.taper.extra_pressure = 0;
-  add_ends(std::max(longest, muscle.file_length), path, a, provenance);
+  const double end = std::min(0.999 * (a.braid.thread_length + a.caps.length),
+                              std::max(longest, muscle.file_length) * 1.005);
+  guess_ends(std::max(end, actuator::shortest_length(a)),
+             "0.5 % beyond the longest length measured", a, provenance);
   if (!(actuator::volume(a, a.long_end.length) > 0))
     throw Refusal("diameter or volume",
                   fmt::format("no air that is left at {:.4g} mm", 1e3 * a.long_end.length),

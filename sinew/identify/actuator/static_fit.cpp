@@ -75,9 +75,7 @@ void widen(const Slopes& slopes, std::span<const Parameter> parameters, std::siz
     const double scale = parameters[i].scale;
     const double own = std::sqrt(variance[i]) * scale;
     if (e.at_bound || !(own > e.standard_error)) continue;
-    e.standard_error = own;
-    e.low = e.value - t * own;
-    e.high = e.value + t * own;
+    e.set_interval(own, t);
     e.identifiable = t * own <= std::max(std::abs(e.value), scale);
   }
 }
@@ -254,8 +252,7 @@ double scatter_of(std::span<const double> residuals, std::span<const StaticPoint
 // Returns the start values: the likely ones, with braids of two angles.
 std::vector<std::vector<double>> starts_of(std::span<const Parameter> parameters,
                                            const std::vector<FreeParameter>& free_parameters) {
-  std::vector<double> likely;
-  for (const Parameter& p : parameters) likely.push_back(p.start);
+  const std::vector<double> likely = starts_of(parameters);
   std::vector<std::vector<double>> out{likely};
   if (free_parameters.empty() || free_parameters[0] != FreeParameter::thread_length) return out;
   out.push_back(likely);
@@ -292,9 +289,7 @@ void judge_labels(StaticFit& fit) {
       e.identifiable = false;
     widen_by_common(fit.setting.rest_lengths, label, fit.solution.freedom, e);
     if (!wrong || e.at_bound) continue;
-    e.standard_error = unbounded;
-    e.low = -unbounded;
-    e.high = unbounded;
+    e.remove_interval();
     e.identifiable = false;
   }
 }
@@ -358,12 +353,14 @@ StaticFit fit_static(const std::vector<FreeParameter>& free_parameters,
         p.low = same->low, p.high = same->high;
     start_at(problem.values(start->setting), search);
   } else {
-    SolverOptions options{.tolerance = std::max(tolerance, 1e-9),
-                          .slopes = problem.slopes(first_scatter * scales.full_scale)};
-    put_readings(points, problem.count(), first_scatter * scales.full_scale, options);
-    const Solution first = least_squares_from(
-        problem.residuals(first_scatter * scales.full_scale), problem.count(), search.parameters,
-        starts_of(search.parameters, free_parameters), options);
+    const double scatter = first_scatter * scales.full_scale;
+    FitProblem rough = search;
+    rough.residuals = problem.residuals(scatter);
+    rough.options = {.tolerance = std::max(tolerance, 1e-9), .slopes = problem.slopes(scatter)};
+    put_readings(points, problem.count(), scatter, rough.options);
+    const std::vector<Solution> all =
+        solutions_from(starts_of(search.parameters, free_parameters), rough);
+    const Solution& first = best_of(all, rough.options);
     out.scatter = scatter_of(first.residuals, points, scales);
     start_at(first.values, search);
   }
@@ -434,8 +431,7 @@ StaticFit fit_by_ratio(std::span<const StaticPoint> points, const StaticScales& 
   ideal.rest_lengths.clear();  // the thesis does not correct labels
 
   // Sums per nominal pressure, over points that pull.
-  std::vector<double> pressures;
-  for (const StaticPoint& p : points) pressures.push_back(p.pressure);
+  const std::vector<double> pressures = values_of(points, &StaticPoint::pressure);
   const double range = largest(pressures) - smallest(pressures);
   const std::vector<int> group = groups_of(pressures, 0.015 * range, 0.1 * range);
   struct Sums {

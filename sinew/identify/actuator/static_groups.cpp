@@ -51,16 +51,14 @@ StaticScales scales_of(const Points& points, double atmosphere,
 }
 
 std::vector<int> pressure_groups(const Points& points) {
-  std::vector<double> p;
-  for (const StaticPoint& point : points) p.push_back(point.pressure);
+  const std::vector<double> p = values_of(points, &StaticPoint::pressure);
   const double range = largest(p) - smallest(p), top = largest(p);
   return groups_of(p, std::max(0.015 * range, 0.01 * top), std::max(0.1 * range, 0.05 * top));
 }
 
 std::vector<int> length_groups(const Points& points) {
   std::vector<double> l;
-  double longest = 0;
-  for (const StaticPoint& point : points) longest = std::max(longest, point.length);
+  const double longest = std::max(0.0, largest(values_of(points, &StaticPoint::length)));
   for (const StaticPoint& point : points) l.push_back(point.length + 10 * point.rest_length);
   return mount_groups(l, actuator::same_length * longest, widest_mount * longest);
 }
@@ -71,16 +69,13 @@ int count_of(const std::vector<int>& groups) {
 
 std::vector<int> setting_groups(const Points& points) {
   constexpr double same_mount = 2e-3, same_pressure = 0.01;  // shares of the largest
-  std::vector<double> length, pressure;
-  for (const StaticPoint& p : points) {
-    length.push_back(p.length);
-    pressure.push_back(p.pressure);
-  }
-  const auto near = [](const std::vector<double>& values, double share) {
+  const auto near = [&](double StaticPoint::*value, double share) {
+    const std::vector<double> values = values_of(points, value);
     const double gap = share * largest(values);
     return groups_of(values, 0.5 * gap, gap);
   };
-  const std::vector<int> mount = near(length, same_mount), level = near(pressure, same_pressure);
+  const std::vector<int> mount = near(&StaticPoint::length, same_mount),
+                         level = near(&StaticPoint::pressure, same_pressure);
   std::map<std::tuple<double, Branch, int, int>, int> known;
   std::vector<int> out;
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -117,8 +112,7 @@ std::vector<StaticPoint> all_points(const StaticSplit& s) {
 
 Rows rows_of(const StaticSplit& s) {
   const Points points = all_points(s);
-  std::set<double> muscles;
-  for (const StaticPoint& p : points) muscles.insert(p.rest_length);
+  const std::set<double> muscles = muscles_in(points);
   const std::vector<int> pressure = pressure_groups(points), length = length_groups(points);
   const bool by_length = muscles.size() > 1 || count_of(length) <= count_of(pressure);
   const std::vector<int>& group = by_length ? length : pressure;

@@ -84,10 +84,8 @@ void widen_by_common(std::span<const RestLengthError> labels, const RestLengthEr
     n += 1;
   }
   const double common = label.labelled * std::sqrt(square) / n;
-  estimate.standard_error = std::hypot(estimate.standard_error, common);
-  const double half = t_quantile(std::max(1, freedom)) * estimate.standard_error;
-  estimate.low = estimate.value - half;
-  estimate.high = estimate.value + half;
+  estimate.set_interval(std::hypot(estimate.standard_error, common),
+                        t_quantile(std::max(1, freedom)));
 }
 
 double fitted_length(const StaticSetting& setting, const StaticPoint& point) {

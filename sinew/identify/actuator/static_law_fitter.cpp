@@ -41,12 +41,6 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-std::set<double> muscles_in(const Points& points) {
-  std::set<double> out;
-  for (const StaticPoint& p : points) out.insert(p.rest_length);
-  return out;
-}
-
 // Returns a part for each point: -1 for those at the end pressures, which are always fitted. With
 // two pressures each is a part.
 std::vector<int> interior_pressures(const Points& points) {
@@ -165,17 +159,11 @@ double add_muscle_notes(const std::vector<LeftOut>& muscles, const std::set<doub
 StaticLawFitter::StaticLawFitter(const StaticModel& model, const StaticScales& scales,
                                  const Points& points)
     : model_(model), scales_(scales), free_parameters_(free_parameters_of(model, scales)) {
-  std::set<double> muscles;
-  bool fill = false, vent = false;
-  for (const StaticPoint& p : points) {
-    muscles.insert(p.rest_length);
-    fill |= p.branch == Branch::fill;
-    vent |= p.branch == Branch::vent;
-  }
   const bool gives_way =
       std::ranges::find(free_parameters_, FreeParameter::series) != free_parameters_.end();
-  if (muscles.size() > 1 && !gives_way) free_parameters_.push_back(FreeParameter::end_loss);
-  if (fill && vent)
+  if (muscles_in(points).size() > 1 && !gives_way)
+    free_parameters_.push_back(FreeParameter::end_loss);
+  if (has_branch(points, Branch::fill) && has_branch(points, Branch::vent))
     free_parameters_.insert(free_parameters_.end(),
                             {FreeParameter::half_width, FreeParameter::width_per_pressure,
                              FreeParameter::width_per_tension});

@@ -14,23 +14,6 @@ constexpr double of_range = 0.005;        // share of the range of pressures
 constexpr double of_scatter = 6;
 constexpr std::size_t median_reach = 7;  // samples on each side of a running median
 
-// Returns running medians.
-std::vector<double> smooth_pressure(std::span<const double> values) {
-  std::vector<double> out(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::size_t reach = std::min({median_reach, i, values.size() - 1 - i});
-    out[i] = median(values.subspan(i - reach, 2 * reach + 1));
-  }
-  return out;
-}
-
-// Returns the median time between samples [s].
-double middle_interval(std::span<const double> time) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
-  return median(steps);
-}
-
 // Returns the standard deviation of single samples about the smoothed ones, from the median.
 double scatter_about(std::span<const double> values, std::span<const double> smooth) {
   std::vector<double> off;
@@ -59,9 +42,9 @@ std::size_t Settled::moving() const {
 Settled settled_samples(std::span<const double> time, std::span<const double> pressure) {
   Settled out{.sample = std::vector<bool>(time.size(), true), .window = shortest_window};
   if (time.size() < 3) return out;
-  const std::vector<double> p = smooth_pressure(pressure);
+  const std::vector<double> p = running_medians(pressure, median_reach);
   const auto [lowest, highest] = std::ranges::minmax(p);
-  out.window = std::max(shortest_window, 3 * middle_interval(time));
+  out.window = std::max(shortest_window, 3 * median(steps_of(time)));
   out.most = std::max(of_range * (highest - lowest), of_scatter * scatter_about(pressure, p));
 
   std::size_t from = 0, to = 0;

@@ -85,8 +85,7 @@ std::vector<PredictedCurve> curves_of(const StaticResult& result, const Points& 
 
 // Returns the part of each point: its muscle.
 std::vector<int> muscle_parts(const Points& points) {
-  std::set<double> muscles;
-  for (const StaticPoint& p : points) muscles.insert(p.rest_length);
+  const std::set<double> muscles = muscles_in(points);
   std::vector<int> out;
   for (const StaticPoint& p : points)
     out.push_back(static_cast<int>(std::distance(muscles.begin(), muscles.find(p.rest_length))));
@@ -105,9 +104,7 @@ std::vector<ErrorBy> errors_of(const Report& report, const Points& points) {
   const std::vector<double>& residuals = report.best().residuals;
   const auto by = [&](const char* what, const char* unit, double StaticPoint::*value,
                       const std::vector<int>& part) {
-    std::vector<double> values;
-    for (const StaticPoint& p : points) values.push_back(p.*value);
-    return error_by(what, unit, residuals, part, values, report.full_scale);
+    return error_by(what, unit, residuals, part, values_of(points, value), report.full_scale);
   };
   std::vector<ErrorBy> out = {
       by("muscle", "m", &StaticPoint::rest_length, muscle_parts(points)),

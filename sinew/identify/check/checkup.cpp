@@ -14,6 +14,7 @@
 #include "sinew/identify/contest/fit.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/data/series.h"
 #include "sinew/json/json.h"
 #include "sinew/units/constants.h"
 
@@ -41,17 +42,13 @@ RecognisedFile file_of(const Measured& m) {
 std::string branches_of(const std::vector<StaticPoint>& points) {
   std::string out;
   for (const auto& [branch, name] : {std::pair{Branch::fill, "fill"}, {Branch::vent, "vent"}})
-    if (std::ranges::any_of(points,
-                            [branch = branch](const StaticPoint& p) { return p.branch == branch; }))
-      out += (out.empty() ? "" : ", ") + std::string(name);
+    if (has_branch(points, branch)) out += (out.empty() ? "" : ", ") + std::string(name);
   return out;
 }
 
 RecognisedMount mount_of(const std::vector<StaticPoint>& points) {
-  std::vector<double> lengths;
-  for (const StaticPoint& p : points) lengths.push_back(p.length);
   RecognisedMount out{.rest_length = points[0].rest_length,
-                      .length = median(lengths),
+                      .length = median(values_of(points, &StaticPoint::length)),
                       .branches = branches_of(points),
                       .pressures = count_of(pressure_groups(points)),
                       .lowest = points[0].pressure,
@@ -101,16 +98,11 @@ struct Squares {
 // Adds the residuals about a straight line over x, or about the mean if all x are equal.
 void add_about_line(std::span<const double> x, std::span<const double> y, Squares& out) {
   const auto n = static_cast<double>(y.size());
-  double mx = 0, my = 0, sxy = 0, sxx = 0;
-  for (std::size_t i = 0; i < y.size(); ++i) mx += x[i] / n, my += y[i] / n;
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    sxy += (x[i] - mx) * (y[i] - my);
-    sxx += (x[i] - mx) * (x[i] - mx);
-  }
-  const bool leans = sxx > 1e-12 * mx * mx && n > 2;
-  const double slope = leans ? sxy / sxx : 0;
+  const StraightLine line = line_through(x, y);
+  const bool leans = line.xx > 1e-12 * line.x * line.x && n > 2;
+  const double slope = leans ? line.slope() : 0;
   for (std::size_t i = 0; i < y.size(); ++i)
-    out.sum += std::pow(y[i] - my - slope * (x[i] - mx), 2);
+    out.sum += std::pow(y[i] - line.y - slope * (x[i] - line.x), 2);
   out.freedom += n - (leans ? 2 : 1);
   out.readings += y.size();
 }
@@ -159,11 +151,8 @@ void add_repeated(const std::vector<StaticPoint>& sorted, double near, Squares& 
 }
 
 Squares of_tables(const std::vector<StaticPoint>& points) {
-  double longest = 0, top = 0;
-  for (const StaticPoint& p : points) {
-    longest = std::max(longest, p.length);
-    top = std::max(top, p.pressure);
-  }
+  const double longest = std::max(0.0, largest(values_of(points, &StaticPoint::length))),
+               top = std::max(0.0, largest(values_of(points, &StaticPoint::pressure)));
   std::vector<StaticPoint> sorted = points;
   sort_points(sorted);
   Squares out;

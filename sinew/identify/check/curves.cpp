@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "sinew/identify/data/quality.h"
+
 namespace sinew::identify {
 
 namespace {
@@ -60,13 +62,9 @@ ForceCurve curve_of(std::vector<StaticPoint> points, double near) {
 std::vector<ForceCurve> curves_of(std::vector<StaticPoint> points) {
   std::vector<ForceCurve> out;
   if (points.empty()) return out;
-  double longest = 0, top = 0;
-  for (const StaticPoint& p : points) {
-    longest = std::max(longest, p.length);
-    top = std::max(top, p.pressure);
-  }
-  std::vector<double> lengths;
-  for (const StaticPoint& p : points) lengths.push_back(p.length);
+  const std::vector<double> lengths = values_of(points, &StaticPoint::length);
+  const double longest = std::max(0.0, largest(lengths)),
+               top = std::max(0.0, largest(values_of(points, &StaticPoint::pressure)));
   const std::vector<int> group = mount_groups(lengths, 0.002 * longest, widest_mount * longest);
 
   std::vector<std::tuple<double, int, int, std::size_t>> order;

@@ -14,8 +14,9 @@
 #include "sinew/identify/actuator/static_labels.h"
 #include "sinew/identify/actuator/static_slopes.h"
 #include "sinew/identify/check/curves.h"
-#include "sinew/identify/contest/least_squares.h"
+#include "sinew/identify/contest/bounds.h"
 #include "sinew/identify/contest/refusal.h"
+#include "sinew/identify/data/quality.h"
 
 namespace sinew::identify {
 
@@ -66,9 +67,7 @@ class LabelProblem {
 
   // Returns two starts, with braids of different angles.
   std::vector<std::vector<double>> starts() const {
-    std::vector<double> likely;
-    for (const Parameter& p : parameters_) likely.push_back(p.start);
-    std::vector<std::vector<double>> out{likely, likely};
+    std::vector<std::vector<double>> out(2, starts_of(parameters_));
     out[1][0] *= 1.2;
     out[1][1] *= 0.8;
     return out;
@@ -136,12 +135,16 @@ class LabelProblem {
 
 LabelFit solved_labels(const LabelProblem& problem, const std::vector<std::vector<double>>& starts,
                        std::size_t points, std::size_t free_parameters, bool doubted) {
-  const Residuals residuals = [&](std::span<const double> p, std::span<double> r) {
-    return problem(p, r, {});
-  };
-  const Solution found = least_squares_from(
-      residuals, problem.count(), problem.parameters(), starts,
-      {.outlier = far_misfit, .correlated = true, .most_steps = 60, .slopes = std::cref(problem)});
+  const FitProblem search{.residuals = [&](std::span<const double> p,
+                                           std::span<double> r) { return problem(p, r, {}); },
+                          .count = problem.count(),
+                          .parameters = problem.parameters(),
+                          .options = {.outlier = far_misfit,
+                                      .correlated = true,
+                                      .most_steps = 60,
+                                      .slopes = std::cref(problem)}};
+  const std::vector<Solution> all = solutions_from(starts, search);
+  const Solution& found = best_of(all, search.options);
   LabelFit out;
   double square = 0;
   for (std::size_t i = 0; i < points; ++i) square += found.residuals[i] * found.residuals[i];
@@ -228,12 +231,8 @@ struct Doubt {
 };
 
 std::vector<FreeParameter> law_for(std::vector<FreeParameter> law, const Points& points) {
-  bool fill = false, vent = false;
-  for (const StaticPoint& p : points) {
-    fill |= p.branch == Branch::fill;
-    vent |= p.branch == Branch::vent;
-  }
-  if (fill && vent) law.push_back(half_width);
+  if (has_branch(points, Branch::fill) && has_branch(points, Branch::vent))
+    law.push_back(half_width);
   if (points.front().rest_length != points.back().rest_length) law.push_back(end_loss);
   return law;
 }
@@ -278,17 +277,9 @@ Doubt fit_label(const FitAsLabelled& all, const DoubtedLabel& label) {
   return out;
 }
 
-Points of_muscle(const Points& points, double rest_length) {
-  Points out;
-  for (const StaticPoint& p : points)
-    if (p.rest_length == rest_length) out.push_back(p);
-  return out;
-}
-
 std::set<double> mounts_of_muscle(const Points& points) {
-  std::set<double> out;
-  for (const StaticPoint& p : points) out.insert(p.length);
-  return out;
+  const std::vector<double> lengths = values_of(points, &StaticPoint::length);
+  return {lengths.begin(), lengths.end()};
 }
 
 // Returns whether a muscle's own mounts can check its rest length: at least three, the longest of
@@ -365,8 +356,7 @@ std::optional<Check> mount_off(const FitAsLabelled& own, const Doubt* rest) {
 
 // Fits the rest length of each muscle, as if the others of its make were right.
 std::vector<Doubt> doubts_of_make(const Points& points, double atmosphere) {
-  std::set<double> muscles;
-  for (const StaticPoint& p : points) muscles.insert(p.rest_length);
+  const std::set<double> muscles = muscles_in(points);
   std::vector<Doubt> out;
   if (muscles.size() < 3 || *muscles.begin() <= 0) return out;
   const FitAsLabelled all(points, atmosphere);
@@ -416,16 +406,14 @@ void add_label_checks(const StaticData& data, double atmosphere, std::vector<Che
   if (points.empty()) return;
   const bool has_label = points.front().rest_length > 0;
   if (!has_label) {  // the longest mount is used, as in a fit
-    const double longest = std::ranges::max(points, {}, &StaticPoint::length).length;
+    const double longest = largest(values_of(points, &StaticPoint::length));
     for (StaticPoint& p : points) p.rest_length = longest;
   }
   const std::vector<Doubt> make = doubts_of_make(points, atmosphere);
-  std::set<double> muscles;
-  for (const StaticPoint& p : points) muscles.insert(p.rest_length);
   int checked = make.empty() ? 0 : 1;
   bool named = false;
-  for (const double m : muscles) {
-    const Points mine = of_muscle(points, m);
+  for (const double m : muscles_in(points)) {
+    const Points mine = points_of(points, m);
     const bool check_rest = has_label && can_check_rest_length(mine);
     if (!check_rest && !can_check_mounts(mine)) continue;
     checked += can_check_mounts(mine) ? 1 : 0;

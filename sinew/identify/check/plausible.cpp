@@ -162,16 +162,13 @@ Check curves_rise(const std::vector<ForceCurve>& curves) {
   return {"clipped sensor", TrafficLight::green, "The force rises up to the highest pressure.", ""};
 }
 
-auto is_of(Branch branch) {
-  return [=](const StaticPoint& p) { return p.branch == branch; };
-}
-
 // Returns the number of pressures on the branch that has most.
 std::size_t pressures_of(const std::vector<StaticPoint>& points) {
   int most = 0;
   for (const Branch branch : {Branch::vent, Branch::unknown, Branch::fill}) {
     std::vector<StaticPoint> own;
-    std::ranges::copy_if(points, std::back_inserter(own), is_of(branch));
+    std::ranges::copy_if(points, std::back_inserter(own),
+                         [=](const StaticPoint& p) { return p.branch == branch; });
     if (!own.empty()) most = std::max(most, count_of(pressure_groups(own)));
   }
   return static_cast<std::size_t>(most);
@@ -205,8 +202,7 @@ void add_reach_checks(const StaticData& data, bool braid_is_known, std::vector<C
   for (const StaticPoint& p : data.points)
     if (p.fitted) fitted.push_back(p);
   if (fitted.empty()) return;
-  const bool fill = std::ranges::any_of(fitted, is_of(Branch::fill)),
-             vent = std::ranges::any_of(fitted, is_of(Branch::vent));
+  const bool fill = has_branch(fitted, Branch::fill), vent = has_branch(fitted, Branch::vent);
   const auto lengths = static_cast<std::size_t>(count_of(length_groups(fitted)));
   out.push_back(
       count("lengths", lengths, braid_is_known ? 1 : 2, 3,

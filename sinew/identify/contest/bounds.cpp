@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sinew/identify/contest/refusal.h"
+
 namespace sinew::identify {
 
 namespace {
@@ -22,6 +24,25 @@ double* guessed_bound(const Estimate& e, Parameter& p) {
 Solution least_squares(const FitProblem& problem) {
   return least_squares(problem.residuals, problem.count, problem.parameters, problem.constraints,
                        problem.options);
+}
+
+std::vector<Solution> solutions_from(std::span<const std::vector<double>> starts,
+                                     FitProblem problem) {
+  std::vector<Solution> out;
+  for (const std::vector<double>& start : starts) {
+    start_at(start, problem);
+    try {
+      out.push_back(least_squares(problem));
+    } catch (const Refusal&) {
+      if (&start == &starts.back() && out.empty()) throw;
+    }
+  }
+  return out;
+}
+
+const Solution& best_of(std::span<const Solution> solutions, const SolverOptions& options) {
+  return *std::ranges::min_element(
+      solutions, {}, [&](const Solution& s) { return loss_of(s.residuals, options); });
 }
 
 void start_at(std::span<const double> values, FitProblem& problem) {

@@ -22,6 +22,13 @@ Solution least_squares_within(FitProblem& problem, Solution found);
 // Returns the solution within the bounds as they are.
 Solution least_squares(const FitProblem& problem);
 
+// Returns the solutions from these starts, each with one value per parameter. A start at which the
+// law is undefined has none; throws Refusal if all are of this kind.
+std::vector<Solution> solutions_from(std::span<const std::vector<double>> starts,
+                                     FitProblem problem);
+// Returns the solution with the smallest loss, the earlier of equal ones.
+const Solution& best_of(std::span<const Solution> solutions, const SolverOptions& options);
+
 // Moves the starts of the problem's parameters to these values, within their bounds.
 void start_at(std::span<const double> values, FitProblem& problem);
 

@@ -52,22 +52,12 @@ Rowset all_of(const std::vector<double>& measured) {
   return out;
 }
 
-// Returns the solutions from the candidate's starts. A start at which the law is undefined has
-// none; throws Refusal if all are of this kind.
+// Returns the solutions from the candidate's starts.
 std::vector<Solution> solutions_of(const Candidate& candidate, FitProblem problem) {
   SolverOptions& options = problem.options;
   options.tolerance = std::max(options.tolerance, candidate.search_tolerance);
   if (candidate.search_steps > 0) options.most_steps = candidate.search_steps;
-  std::vector<Solution> out;
-  for (const std::vector<double>& start : candidate.starts) {
-    start_at(start, problem);
-    try {
-      out.push_back(least_squares(problem));
-    } catch (const Refusal&) {
-      if (&start == &candidate.starts.back() && out.empty()) throw;
-    }
-  }
-  return out;
+  return solutions_from(candidate.starts, std::move(problem));
 }
 
 // Returns predicted - measured at every row.
@@ -108,8 +98,7 @@ Solution solved(const Candidate& candidate, FitProblem& problem) {
   std::optional<Solution> best;
   if (!candidate.starts.empty()) {
     all = solutions_of(candidate, problem);
-    best = *std::ranges::min_element(
-        all, {}, [&](const Solution& s) { return loss_of(s.residuals, problem.options); });
+    best = best_of(all, problem.options);
     start_at(best->values, problem);
   }
   if (!best || candidate.search_steps > 0 || candidate.search_tolerance > problem.options.tolerance)

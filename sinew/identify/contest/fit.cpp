@@ -14,10 +14,6 @@ namespace sinew::identify {
 
 namespace {
 
-std::size_t free_in(const Fit& fit) {
-  return static_cast<std::size_t>(std::ranges::count_if(fit.parameters, &Estimate::free));
-}
-
 bool usable(const Fit& fit) { return fit.refused.empty(); }
 
 enum class By { cross_validation, held_out, fit };
@@ -101,6 +97,18 @@ std::string runners_up(const std::vector<const Fit*>& fits, const Fit& chosen, B
 
 }  // namespace
 
+void Rows::add(std::span<const double> more_at, std::span<const double> more_measured,
+               const std::string& name) {
+  at.insert(at.end(), more_at.begin(), more_at.end());
+  measured.insert(measured.end(), more_measured.begin(), more_measured.end());
+  group.resize(at.size(), name);
+}
+
+const Estimate* Fit::estimate(std::string_view name) const {
+  const auto at = std::ranges::find(parameters, name, &Estimate::name);
+  return at == parameters.end() ? nullptr : &*at;
+}
+
 double choice_error(const Report& report, const Fit& fit) { return error_of(fit, measure(report)); }
 
 void choose(Report& report, double tolerance, double negligible) {
@@ -114,7 +122,7 @@ void choose(Report& report, double tolerance, double negligible) {
   const Fit* chosen = fits.front();
   for (const Fit* fit : fits) {
     const bool is_near = error_of(*fit, by) <= limit;
-    if (is_near && free_in(*fit) < free_in(*chosen) &&
+    if (is_near && free_count(fit->parameters) < free_count(chosen->parameters) &&
         costs_no_kind(*fit, *fits.front(), by, tolerance, negligible))
       chosen = fit;
   }
@@ -134,8 +142,8 @@ void choose(Report& report, double tolerance, double negligible) {
       near < negligible ? fmt::format("below {:.2g} %, where it decides nothing", negligible)
       : tolerance > 0   ? fmt::format("within {:.0f} % of the smallest", 100 * tolerance)
                         : "the smallest",
-      chosen->model, free_in(*chosen), error_of(*chosen, by), smallest, fits.front()->model,
-      runners_up(fits, *chosen, by));
+      chosen->model, free_count(chosen->parameters), error_of(*chosen, by), smallest,
+      fits.front()->model, runners_up(fits, *chosen, by));
 }
 
 namespace {

@@ -46,6 +46,9 @@ struct Fit {
   std::string refused;             // why the data cannot give this model; empty: fitted
   std::string not_chosen;          // why it is shown but not chosen, e.g. a parameter at its bound
   std::shared_ptr<const Refit> refit;  // until the choice; null: no profiles
+
+  // Returns the estimate of this name; null if the law does not have it.
+  const Estimate* estimate(std::string_view name) const;
 };
 
 // Chosen model along one group of rows, also between and beyond them: its value, and the
@@ -102,6 +105,9 @@ struct Rows {
   bool scattered = false;
 
   std::size_t size() const { return at.size(); }
+  // Appends rows of one group.
+  void add(std::span<const double> more_at, std::span<const double> more_measured,
+           const std::string& name);
 };
 
 // Models of one quantity in comparison, and the chosen one.

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -267,9 +266,7 @@ class Uncertainty {
       const Parameter& p = parameters_[i];
       Estimate e{.name = p.name, .unit = p.unit, .value = out.values[i]};
       e.at_bound = at_bound(u, i);
-      e.standard_error = e.at_bound ? 0 : std::sqrt(out.covariance[i * n + i]);
-      e.low = e.value - t * e.standard_error;
-      e.high = e.value + t * e.standard_error;
+      e.set_interval(e.at_bound ? 0 : std::sqrt(out.covariance[i * n + i]), t);
       if (out.freedom < 1 && !e.at_bound) e.low = -unbounded, e.high = unbounded;
       const double size = std::max(std::abs(e.value), p.scale);
       e.identifiable = !e.at_bound && t * e.standard_error <= options_.widest_interval * size;
@@ -374,6 +371,12 @@ const Estimate& Solution::operator[](std::string_view name) const {
   throw std::out_of_range(fmt::format("no parameter {}", name));
 }
 
+std::vector<double> starts_of(std::span<const Parameter> parameters) {
+  std::vector<double> out;
+  for (const Parameter& p : parameters) out.push_back(p.start);
+  return out;
+}
+
 double t_quantile(int freedom) {
   // The expansion of Cornish and Fisher is too small for few degrees of freedom.
   constexpr double exact[] = {12.7062, 4.30265, 3.18245, 2.77645, 2.57058};
@@ -441,27 +444,6 @@ Solution least_squares(const Residuals& residuals, std::size_t count,
         std::clamp(u[i] * parameters[i].scale, parameters[i].low, parameters[i].high));
   add_uncertainty(plain, parameters, options, u, out);
   return out;
-}
-
-Solution least_squares_from(const Residuals& residuals, std::size_t count,
-                            std::span<const Parameter> parameters,
-                            std::span<const std::vector<double>> starts,
-                            const SolverOptions& options) {
-  const auto cost = [&](const Solution& s) { return loss_of(s.residuals, options); };
-  std::unique_ptr<Solution> best;
-  std::vector<Parameter> from(parameters.begin(), parameters.end());
-  for (const std::vector<double>& start : starts) {
-    for (std::size_t i = 0; i < from.size(); ++i)
-      from[i].start = std::clamp(start.at(i), from[i].low, from[i].high);
-    try {
-      Solution s = least_squares(residuals, count, from, options);
-      if (!best || cost(s) < cost(*best)) best = std::make_unique<Solution>(std::move(s));
-    } catch (const Refusal&) {
-      if (&start == &starts.back() && !best) throw;
-    }
-  }
-  if (!best) throw std::invalid_argument("no start values");
-  return *best;
 }
 
 }  // namespace sinew::identify

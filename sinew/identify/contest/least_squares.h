@@ -37,6 +37,9 @@ struct Parameter {
   bool is_scaled_by_start = false;  // its size is unknown before a start is given: that is `scale`
 };
 
+// Returns the start values of the parameters.
+std::vector<double> starts_of(std::span<const Parameter> parameters);
+
 // Writes the residuals for the parameters p; their number is constant. May return false if the
 // model is undefined there: the step is then rejected.
 using Residuals = std::function<bool(std::span<const double> p, std::span<double> r)>;
@@ -90,6 +93,19 @@ struct Estimate {
   bool free = true;                // false: frozen, or tied to another parameter
   std::string known;               // prior knowledge in words, e.g. "frozen"; empty: none
   std::optional<Profile> profile;  // for the chosen law, if its method has profiles
+
+  // Sets the interval: `t` standard errors to either side.
+  void set_interval(double error, double t) {
+    standard_error = error;
+    low = value - t * error;
+    high = value + t * error;
+  }
+  // Removes the interval: nothing is known of the error.
+  void remove_interval() {
+    standard_error = unbounded;
+    low = -unbounded;
+    high = unbounded;
+  }
 };
 
 // Returns the estimate of another quantity that is `factor` times the first.
@@ -127,13 +143,6 @@ double loss_of(std::span<const double> residuals, const SolverOptions& options,
 // Returns 1 + 2 sum of the autocorrelation, up to the lag at which noise dominates: the number of
 // values of a series that count as one independent value.
 double inflation_of(std::span<const double> values);
-
-// Returns the best solution from several starts, the earlier of equal ones. Each of `starts` holds
-// one value per parameter.
-Solution least_squares_from(const Residuals& residuals, std::size_t count,
-                            std::span<const Parameter> parameters,
-                            std::span<const std::vector<double>> starts,
-                            const SolverOptions& options = {});
 
 // Returns the 0.975 quantile of Student's t: the half-width of a 95 % interval in standard errors.
 double t_quantile(int freedom);

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "sinew/host/side_by_side.h"
+#include "sinew/identify/contest/bounds.h"
 #include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify {
@@ -48,21 +49,17 @@ constexpr double far_beyond = Profile::most * Profile::most;
 constexpr int first_steps = 8, more_steps = 60;
 
 // Fits the other parameters from `values` with one held at `value`, and writes the result to
-// `values`. Returns the loss, or an upper bound if it is far beyond `limit`; infinite if the law is
-// undefined.
+// `values`. `held` is a copy of the problem for this thread. Returns the loss, or an upper bound if
+// it is far beyond `limit`; infinite if the law is undefined.
 double loss_with(const FitProblem& problem, std::size_t which, double value, double limit,
-                 std::vector<double>& values) {
-  std::vector<Parameter> parameters = problem.parameters;
-  const Constraints constraints = problem.constraints.with_frozen(parameters[which].name, value);
-  SolverOptions options = problem.options;
-  options.correlated = false;
+                 std::vector<double>& values, FitProblem& held) {
+  held.constraints = problem.constraints.with_frozen(problem.parameters[which].name, value);
   double loss = unbounded;
   const auto improve = [&](int steps, double tolerance) {
-    for (std::size_t i = 0; i < parameters.size(); ++i)
-      parameters[i].start = std::clamp(values[i], parameters[i].low, parameters[i].high);
-    options.most_steps = std::min(problem.options.most_steps, steps);
-    options.tolerance = tolerance;
-    Solution s = least_squares(problem.residuals, problem.count, parameters, constraints, options);
+    start_at(values, held);
+    held.options.most_steps = std::min(problem.options.most_steps, steps);
+    held.options.tolerance = tolerance;
+    Solution s = least_squares(held);
     values = std::move(s.values);
     loss = loss_of(problem, s.residuals);
   };
@@ -95,17 +92,20 @@ std::vector<std::optional<Profile>> profiles_of(const FitProblem& problem,
     const std::size_t i = k / 2;
     if (!out[i]) return;
     // The value moves in two steps; the other parameters start from those of the step before.
-    const FitProblem own = problem;
+    FitProblem held = problem;
+    held.options.correlated = false;
+    for (Parameter& p : held.parameters) p.is_scaled_by_start = false;
     std::vector<double> values = solution.values;
     for (std::size_t step = 1; step <= 2; ++step) {
       const std::size_t at = k % 2 == 0 ? middle - step : middle + step;
-      const auto [to, is_far] = moved(own.parameters[i], solution.values[i], Profile::factors[at]);
+      const auto [to, is_far] =
+          moved(problem.parameters[i], solution.values[i], Profile::factors[at]);
       if (!is_far) {
         out[i]->error[at] = std::nan("");
         ends[k] = cannot_move;
         continue;
       }
-      ends[k] = loss_with(own, i, to, limit, values);
+      ends[k] = loss_with(problem, i, to, limit, values, held);
       const double ratio = best > 0 ? std::sqrt(ends[k] / best) : ends[k] > 0 ? unbounded : 1;
       out[i]->error[at] = std::min(ratio, Profile::most);
     }

@@ -44,6 +44,11 @@ void Provenance::fitted(std::string_view path, std::string_view unit, double unc
                                                 units::difference_unit(unit), 3);
 }
 
+void Provenance::fitted(std::string_view path, const Estimate* estimate, std::string_view source,
+                        std::string_view without) {
+  estimate ? fitted(path, *estimate, source) : given(path, without);
+}
+
 void Provenance::given(std::string_view path, std::string_view source) {
   put(path).source = source;
 }
@@ -98,6 +103,17 @@ actuator::Actuator without_idle_digits(actuator::Actuator a) {
   // The widest mesh must not exceed the long end.
   a.long_end.length = std::max(a.long_end.length, actuator::shortest_length(a));
   return a;
+}
+
+void guess_ends(double long_end, std::string_view reason, actuator::Actuator& a,
+                Provenance& provenance) {
+  const std::string path = "actuator." + a.name + ".";
+  a.long_end = {.length = long_end, .stiffness = 87563.4, .damping = 122.6};
+  a.short_end = {.stiffness = 87563.4, .damping = 122.6};
+  provenance.guessed(path + "long_end.length", reason);
+  for (const char* end : {"long_end", "short_end"})
+    for (const char* key : {"stiffness", "damping"})
+      provenance.guessed(path + end + "." + key, "the thesis's actuator, appendix A");
 }
 
 std::string actuator_file(actuator::Actuator actuator, const Provenance& provenance) {

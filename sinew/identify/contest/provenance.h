@@ -21,6 +21,9 @@ class Provenance {
   // Records a fitted value at `path`. Its uncertainty is half the 95 % interval, in its own unit;
   // the source of an unidentifiable value states that.
   void fitted(std::string_view path, const Estimate& estimate, std::string_view source);
+  // Records a fitted value, or one that is `given` if the law does not have it (null).
+  void fitted(std::string_view path, const Estimate* estimate, std::string_view source,
+              std::string_view given);
   // Records a value with an uncertainty that was not fitted alone; NaN: unknown uncertainty.
   void fitted(std::string_view path, std::string_view unit, double uncertainty,
               std::string_view source);
@@ -44,6 +47,11 @@ class Provenance {
 // Measurements do not justify more, and a file would print the rest in whichever unit has a digit
 // fewer (units/quantity.h).
 actuator::Actuator without_idle_digits(actuator::Actuator actuator);
+
+// Gives the actuator ends, which no measurement at rest shows: as stiff as in the thesis. `reason`
+// is that of the length of the long end [m].
+void guess_ends(double long_end, std::string_view reason, actuator::Actuator& actuator,
+                Provenance& provenance);
 
 // Returns a file of format sinew.actuator/1; paths begin with "actuator.<name>.".
 std::string actuator_file(actuator::Actuator actuator, const Provenance& provenance);

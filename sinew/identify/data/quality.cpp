@@ -63,6 +63,21 @@ double largest(std::span<const double> values) {
 
 double median(std::span<const double> values) { return median_of({values.begin(), values.end()}); }
 
+std::vector<double> running_medians(std::span<const double> values, std::size_t reach) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t near = std::min({reach, i, values.size() - 1 - i});
+    out.push_back(median(values.subspan(i - near, 2 * near + 1)));
+  }
+  return out;
+}
+
+std::vector<double> steps_of(std::span<const double> values) {
+  std::vector<double> out;
+  for (std::size_t i = 1; i < values.size(); ++i) out.push_back(values[i] - values[i - 1]);
+  return out;
+}
+
 double spread(std::span<const double> values) {
   const double center = median(values);
   std::vector<double> distances;

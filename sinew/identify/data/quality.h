@@ -28,6 +28,12 @@ double smallest(std::span<const double> values);
 double largest(std::span<const double> values);
 double median(std::span<const double> values);
 
+// Returns the median of the values up to `reach` places away from each; fewer at the ends.
+std::vector<double> running_medians(std::span<const double> values, std::size_t reach);
+
+// Returns the differences of neighbouring values.
+std::vector<double> steps_of(std::span<const double> values);
+
 // Returns a robust standard deviation: 1.4826 times the median distance from the median, which is
 // the standard deviation of normal noise.
 double spread(std::span<const double> values);

@@ -33,6 +33,20 @@ struct Sums {
 
 }  // namespace
 
+StraightLine line_through(std::span<const double> x, std::span<const double> y) {
+  const auto n = static_cast<double>(x.size());
+  StraightLine out;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    out.x += x[i] / n;
+    out.y += y[i] / n;
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    out.xx += (x[i] - out.x) * (x[i] - out.x);
+    out.xy += (x[i] - out.x) * (y[i] - out.y);
+  }
+  return out;
+}
+
 Rates rates_of(std::span<const double> time, std::span<const double> values, double window) {
   const std::size_t n = time.size();
   Rates out{std::vector<double>(n), std::vector<double>(n)};

@@ -132,9 +132,7 @@ void judge_intervals(const DrivenRun& run, double until, double roughness, RunFi
           : "the readings jump where a number changes a little; the search ends near the optimum, "
             "and how near is not known. Another run may have no such jumps";
   for (Estimate& e : estimates) {
-    e.standard_error = unbounded;
-    e.low = -unbounded;
-    e.high = unbounded;
+    e.remove_interval();
     e.at_bound = false;
   }
 }
@@ -172,12 +170,10 @@ bool moves_readings(const RunResiduals& residuals, const Parameter& one, std::si
 std::vector<Parameter> parameters_with_effect(const RunResiduals& residuals,
                                               const std::vector<Parameter>& all,
                                               std::vector<std::string>& without_effect) {
-  std::vector<double> p, short_times;
-  for (const Parameter& one : all) {
-    p.push_back(one.start);
+  std::vector<double> short_times;
+  for (const Parameter& one : all)
     short_times.push_back(is_dead_time(one) ? std::max(one.low, 0.5 * one.start) : one.start);
-  }
-  const EvaluatedPoint start(residuals, p), sooner(residuals, short_times);
+  const EvaluatedPoint start(residuals, starts_of(all)), sooner(residuals, short_times);
   if (!start.is_evaluated)
     throw Refusal("the machine at the start of the search",
                   "that it does not get to the end of the run in finite numbers",
@@ -205,9 +201,8 @@ double search_numbers(const Experiment& e, const DrivenRun& run, const RunFitOpt
   const double beginning = std::min(until, std::max(options.from + 4, until / 3));
   const RunResiduals first(e, run, parameters, options, beginning);
   const RunResiduals whole(e, run, parameters, options, until);
-  std::vector<double> start;
-  for (const Parameter& p : parameters) start.push_back(p.start);
-  out.at_start = std::sqrt(2 * whole.cost(start) / static_cast<double>(whole.count()));
+  out.at_start =
+      std::sqrt(2 * whole.cost(starts_of(parameters)) / static_cast<double>(whole.count()));
   const RunSearched found = search_run(first, whole, parameters, options, options.threads);
   RunJudged s = judge_run(whole, parameters, found, options.threads);
   for (std::string& direction : open_directions(s, parameters))

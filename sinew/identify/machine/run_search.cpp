@@ -295,8 +295,7 @@ RunSearched search_run(const RunResiduals& beginning, const RunResiduals& whole,
       options.progress(fmt::format("{}: residuals of {:.4g} times the noise, {} + {} simulations",
                                    what, rms, beginning.simulations(), whole.simulations()));
   };
-  std::vector<double> start;
-  for (const Parameter& one : parameters) start.push_back(one.start);
+  const std::vector<double> start = starts_of(parameters);
   const auto search_from = [&](std::vector<double> p) {
     scan_numbers(beginning, parameters, threads, p);
     RunSearched found = search_in_cells(beginning, parameters, p, most_steps, threads);

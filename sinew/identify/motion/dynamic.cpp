@@ -156,9 +156,7 @@ class Dynamic {
     for (const bool held_out : {false, true})
       for (const std::size_t i : held_out ? held_out_ : fitted_) {
         const Swing& s = swings_[i];
-        out.at.insert(out.at.end(), s.time.begin(), s.time.end());
-        out.measured.insert(out.measured.end(), s.length.begin(), s.length.end());
-        out.group.resize(out.size(), s.file);
+        out.add(s.time, s.length, s.file);
         out.held_out.resize(out.size(), held_out);
       }
     return out;

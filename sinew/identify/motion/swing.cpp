@@ -29,29 +29,9 @@ constexpr ColumnSpec columns[] = {
 // the period by a factor within these limits.
 constexpr double rest_within = 0.05, least_tension = 0.8, most_tension = 1.25;
 
-struct Line {
-  double at_mean = 0, slope = 0, mean = 0;
-};
-
-Line line_through(std::span<const double> x, std::span<const double> y) {
-  const auto n = static_cast<double>(x.size());
-  Line out;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    out.mean += x[i] / n;
-    out.at_mean += y[i] / n;
-  }
-  double xx = 0, xy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    xx += (x[i] - out.mean) * (x[i] - out.mean);
-    xy += (x[i] - out.mean) * (y[i] - out.at_mean);
-  }
-  out.slope = xx > 0 ? xy / xx : 0;
-  return out;
-}
-
 // Straight line of y over a delayed x.
 struct DelayedLine {
-  Line line;
+  StraightLine line;
   double delay = 0, left = 0;  // delay [s], and sum of squared residuals [y^2]
 };
 
@@ -68,7 +48,7 @@ DelayedLine delayed_line(std::span<const double> t, std::span<const double> x,
   const std::span<const double> v = y.subspan(static_cast<std::size_t>(from), n);
   DelayedLine out{line_through(u, v), delay};
   for (std::size_t i = 0; i < n; ++i)
-    out.left += std::pow(v[i] - out.line.at_mean - out.line.slope * (u[i] - out.line.mean), 2);
+    out.left += std::pow(v[i] - out.line.y - out.line.slope() * (u[i] - out.line.x), 2);
   return out;
 }
 
@@ -139,13 +119,13 @@ void Swing::take_pressure(const Measured& data) {
   }
   // A sensor delay would reduce the slope.
   const DelayedLine best = best_line(t, x, y, oscillation.period);
-  const Line& line = best.line;
+  const StraightLine& line = best.line;
   pressure_delay = best.delay;
-  if (exponent) stand.polytropic_exponent = -line.slope;
-  if (at_rest) stand.pressure = std::exp(line.at_mean + line.slope * (air(rest) - line.mean));
+  if (exponent) stand.polytropic_exponent = -line.slope();
+  if (at_rest) stand.pressure = std::exp(line.at(air(rest)));
   if (!(stand.polytropic_exponent >= 0.9 && stand.polytropic_exponent <= 1.6))
     throw Refusal(file + ": pressure",
-                  fmt::format("it goes with the volume to the power {:.3g}", line.slope),
+                  fmt::format("it goes with the volume to the power {:.3g}", line.slope()),
                   "trapped air: between -0.9 and -1.6",
                   "external_volume=VOLUME, exponent=N, or the pressure's zero");
   notes.push_back(fmt::format("{}: the measured pressure gives {:.5g} Pa at rest, exponent {:.3f}",
@@ -236,10 +216,9 @@ Swing::Nuisance Swing::first_guess() const {
   const double begin = time[0];
   std::size_t count = 0;
   while (count < time.size() && time[count] < begin + oscillation.period / 12) ++count;
-  const Line line = line_through({time.data(), count}, {length.data(), count});
+  const StraightLine line = line_through({time.data(), count}, {length.data(), count});
   const double tension = tension_of_period();
-  return {line.at_mean + line.slope * (begin - line.mean), line.slope,
-          rest - *rest_length(scaled(tension)), tension};
+  return {line.at(begin), line.slope(), rest - *rest_length(scaled(tension)), tension};
 }
 
 std::array<Parameter, Swing::nuisances> Swing::parameters(const Nuisance& start) const {

@@ -28,8 +28,8 @@ double noise_of(std::span<const double> x) {
   for (std::size_t i = 4; i < x.size(); ++i)
     fourth.push_back(x[i] - 4 * x[i - 1] + 6 * x[i - 2] - 4 * x[i - 3] + x[i - 4]);
   double resolution = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < x.size(); ++i)
-    if (x[i] != x[i - 1]) resolution = std::min(resolution, std::abs(x[i] - x[i - 1]));
+  for (const double step : steps_of(x))
+    if (step != 0) resolution = std::min(resolution, std::abs(step));
   if (!std::isfinite(resolution)) resolution = 0;
   return std::max(spread(fourth) / std::sqrt(70.0), resolution / std::sqrt(12.0));
 }
@@ -228,9 +228,7 @@ Oscillation find_turns(std::span<const double> time, std::span<const double> val
       extremes(moving_mean(clean, 2), std::max(6 * out.noise, 0.05 * range));
   if (rough.size() < 5) refuse_still(subject, rough.size());
   const double rough_period = period_of(time, rough);
-  Values steps;
-  for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
-  const double per_period = rough_period / median(steps);
+  const double per_period = rough_period / median(steps_of(time));
   if (per_period < samples_per_period)
     throw Refusal(subject, fmt::format("{:.0f} samples per period", per_period),
                   fmt::format("at least {:.0f}", samples_per_period), "a faster recording");

@@ -13,6 +13,7 @@
 #include "sinew/identify/contest/contest.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/data/series.h"
 #include "sinew/identify/pair/pair_law.h"
 #include "sinew/identify/pair/pair_record.h"
 
@@ -89,18 +90,6 @@ double largest_size(std::span<const double> values) {
 
 double range_of(std::span<const double> values) { return largest(values) - smallest(values); }
 
-// Returns the slope of the effort over the position.
-double slope_of(const PairRecord& r) {
-  double mx = 0, my = 0, xy = 0, xx = 0;
-  const auto n = static_cast<double>(r.size());
-  for (std::size_t i = 0; i < r.size(); ++i) mx += r.at[i] / n, my += r.effort[i] / n;
-  for (std::size_t i = 0; i < r.size(); ++i) {
-    xy += (r.at[i] - mx) * (r.effort[i] - my);
-    xx += (r.at[i] - mx) * (r.at[i] - mx);
-  }
-  return xy / xx;
-}
-
 // Returns the direction of the first motion by a hundredth of the range.
 double first_way(const PairRecord& r) {
   const double enough = 0.01 * range_of(r.at);
@@ -123,7 +112,7 @@ PairProblem::PairProblem(const PairLaw& law, std::span<const PairRecord> records
     range_ = std::max(range_, range_of(r.at));
     effort_ = std::max(effort_, range_of(r.effort));
     duration_ = std::max(duration_, r.time.back() - r.time.front());
-    stiffness += slope_of(r) / static_cast<double>(records.size());
+    stiffness += line_through(r.at, r.effort).slope() / static_cast<double>(records.size());
     if (std::ranges::find(rigs_, r.rig) == rigs_.end()) rigs_.push_back(r.rig);
     rig_.push_back(static_cast<std::size_t>(std::ranges::find(rigs_, r.rig) - rigs_.begin()));
   }
@@ -218,9 +207,7 @@ void PairProblem::add_sensors(double stiffness, std::size_t fitted) {
 }
 
 std::vector<std::vector<double>> PairProblem::starts() const {
-  std::vector<double> first;
-  for (const Parameter& p : parameters_) first.push_back(p.start);
-  std::vector<std::vector<double>> out{first};
+  std::vector<std::vector<double>> out{starts_of(parameters_)};
   const auto vary = [&](double PairValues::*place, std::vector<double> values) {
     for (std::size_t i = 0; i < physics_.size(); ++i) {
       if (physics_[i] != place) continue;
@@ -401,9 +388,7 @@ class Pair {
   Rows rows() const {
     Rows out{.x = "time", .x_unit = "s"};
     const auto add = [&](const PairRecord& r, const PairRows* unseen) {
-      out.at.insert(out.at.end(), r.time.begin(), r.time.end());
-      out.measured.insert(out.measured.end(), r.effort.begin(), r.effort.end());
-      out.group.resize(out.size(), r.file);
+      out.add(r.time, r.effort, r.file);
       out.held_out.resize(out.size(), unseen == nullptr);
       const std::size_t from = out.size() - r.size();
       for (std::size_t i = 0; unseen && i < unseen->size(); ++i)

@@ -33,15 +33,6 @@ constexpr std::array all_laws{
     PairLaw{"all",                    "F = k x + A dP + c v + m a + D w(x, t)",  forgets, true,  true,  true,  true,  fading}};
 // clang-format on
 
-// Returns the covariance of pressure and position; negative if the pressure falls.
-double together(std::span<const double> x, std::span<const double> p) {
-  double mx = 0, mp = 0, sum = 0;
-  const auto n = static_cast<double>(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) mx += x[i] / n, mp += p[i] / n;
-  for (std::size_t i = 0; i < x.size(); ++i) sum += (x[i] - mx) * (p[i] - mp);
-  return sum;
-}
-
 }  // namespace
 
 std::span<const PairLaw> pair_laws() { return all_laws; }
@@ -51,7 +42,7 @@ std::vector<double> pair_pressure(const PairRecord& record) {
   const double share = record.pressure.size() == 1 ? 2 : 1;
   std::vector<double> out(record.size(), 0.0);
   for (const std::vector<double>& p : record.pressure) {
-    const double sign = together(record.at, p) < 0 ? -share : share;
+    const double sign = line_through(record.at, p).slope() < 0 ? -share : share;
     for (std::size_t i = 0; i < out.size(); ++i) out[i] += sign * p[i];
   }
   double mean = 0;

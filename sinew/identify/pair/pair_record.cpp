@@ -40,17 +40,14 @@ bool is_rotary(const Measured& data) {
 
 double smallest_step(std::span<const double> values) {
   double out = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    const double step = std::abs(values[i] - values[i - 1]);
-    if (step > 0) out = std::min(out, step);
-  }
+  for (const double step : steps_of(values))
+    if (step != 0) out = std::min(out, std::abs(step));
   return out;
 }
 
 // Notes gaps: steps that are much longer than the others.
 void add_gap_note(PairRecord& r) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < r.size(); ++i) steps.push_back(r.time[i] - r.time[i - 1]);
+  const std::vector<double> steps = steps_of(r.time);
   const double usual = median(steps);
   const auto gaps = std::ranges::count_if(steps, [&](double s) { return s > 10 * usual; });
   if (gaps > 0)

@@ -442,8 +442,7 @@ PlanRegion region_of(const ExpectedMuscle& muscle) {
 
 std::vector<MeasuredMount> mounts_of(std::span<const StaticPoint> points) {
   std::vector<MeasuredMount> out;
-  std::vector<double> lengths;
-  for (const StaticPoint& p : points) lengths.push_back(p.length);
+  const std::vector<double> lengths = values_of(points, &StaticPoint::length);
   if (lengths.empty()) return out;
   const std::vector<int> group =
       mount_groups(lengths, 5e-4, widest_mount * *std::ranges::max_element(lengths));

@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "sinew/identify/data/measured.h"
+#include "sinew/robot/robot.h"
 
 namespace sinew::identify {
 
 // Quantity of a sensor, named as in a robot's file.
-enum class SensorKind { angle, tension, pressure, velocity, cylinder };
-
+using SensorKind = robot::Sensor::Kind;
 // Names and units of one kind of sensor.
 struct KindFacts {
   SensorKind kind;
@@ -27,6 +27,7 @@ struct KindFacts {
   std::string_view sensitivity;  // volts per unit, e.g. "V/N"
   std::string_view curvature;    // volts per unit squared, e.g. "V/N2"
 };
+
 // Returns the names and units of a kind.
 const KindFacts& facts_of(SensorKind kind);
 

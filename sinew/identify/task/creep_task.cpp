@@ -14,9 +14,8 @@ CreepFound find(const SourceList& sources, const CreepSettings& settings) {
       times_averaged(read_measured(only_of(sources), creep_columns()), 20000), settings.tried));
   const CreepResult& result = out.result;
   out.json["creep"] = {{"share", result.creep.share}, {"time_s", result.creep.time}};
-  const bool tried = std::ranges::any_of(result.report.fits, [](const Fit& fit) {
-    return std::ranges::find(fit.parameters, "half_width", &Estimate::name) != fit.parameters.end();
-  });
+  const bool tried = std::ranges::any_of(
+      result.report.fits, [](const Fit& fit) { return fit.estimate("half_width") != nullptr; });
   if (tried) out.json["hysteresis"] = {{"half_width_Pa", result.hysteresis.half_width}};
   return out;
 }

@@ -45,11 +45,9 @@ std::string loss_file(const config::Origins& start, const std::string& start_fil
   const std::string source = source_words("dynamic", sources, found.report.best().model);
 
   const std::string path = "actuator." + a.name + ".loss.";
-  for (const char* key : {"viscous", "coulomb_length"}) {
-    provenance.given(path + key, source + ", which has none");
-    for (const Estimate& e : found.report.best().parameters)
-      if (e.name == key) provenance.fitted(path + key, e, source);
-  }
+  for (const char* key : {"viscous", "coulomb_length"})
+    provenance.fitted(path + key, found.report.best().estimate(key), source,
+                      source + ", which has none");
   provenance.given(path + "coulomb_scale", source);
   provenance.given(path + "coulomb_stiffness",
                    source + (found.loss.coulomb_stiffness > 0 ? ", of the sealed muscle at rest"

@@ -27,25 +27,11 @@ actuator::Actuator actuator_of(const actuator::Braid& braid, const std::string& 
   actuator::Actuator a;
   a.name = name;
   a.braid = braid;
-  a.long_end = {.length = 0.93 * braid.thread_length, .stiffness = 87563.4, .damping = 122.6};
-  a.short_end.stiffness = a.long_end.stiffness;
-  a.short_end.damping = a.long_end.damping;
-
-  const std::string path = "actuator." + name + ".";
-  for (const char* key : {"thread_length", "turns"}) {
-    const Estimate* found = nullptr;
-    if (report)
-      for (const Estimate& e : report->best().parameters)
-        if (e.name == key) found = &e;
-    if (found)
-      provenance.fitted(path + "braid." + key, *found, source);
-    else
-      provenance.given(path + "braid." + key, source);
-  }
-  provenance.guessed(path + "long_end.length", "as the thesis's share of the thread's length");
-  for (const char* end : {"long_end", "short_end"})
-    for (const char* key : {"stiffness", "damping"})
-      provenance.guessed(path + end + "." + key, "the thesis's actuator, appendix A");
+  for (const char* key : {"thread_length", "turns"})
+    provenance.fitted("actuator." + name + ".braid." + key,
+                      report ? report->best().estimate(key) : nullptr, source, source);
+  guess_ends(0.93 * braid.thread_length, "as the thesis's share of the thread's length", a,
+             provenance);
   return a;
 }
 

@@ -25,39 +25,26 @@ namespace {
 using robot::Joint;
 using robot::Muscle;
 
-const Estimate* parameter(const JointResult& found, std::string_view name) {
-  for (const Estimate& e : found.report.best().parameters)
-    if (e.name == name) return &e;
-  return nullptr;
-}
-
-void note_origin(const JointResult& found, std::string_view parameter_name, const std::string& path,
-                 const std::string& source, Provenance& provenance) {
-  if (const Estimate* e = parameter(found, parameter_name))
-    provenance.fitted(path, *e, source);
-  else
-    provenance.given(path, "given to " + source);
-}
-
 // Returns the tables of the joint and its muscles in a robot's file. `source` describes their
 // origin.
 config::Node tables_of(const JointResult& found, const JointSetup& setup, const JointNames& names,
                        const std::string& source) {
   Provenance provenance;
+  const Fit& best = found.report.best();
+  const std::string given = "given to " + source;
   std::vector<Joint> joints(1);
   joints[0].name = names.joint;
   joints[0].rest_angle = setup.rest_angle;
   joints[0].moment_arm = found.moment_arm;
   const std::string path = "joint." + names.joint + ".";
-  provenance.given(path + "rest_angle", "given to " + source);
-  note_origin(found, "moment_arm", path + "moment_arm", source, provenance);
-
+  provenance.given(path + "rest_angle", given);
+  provenance.fitted(path + "moment_arm", best.estimate("moment_arm"), source, given);
   double friction = std::nan(""), damping = friction;  // for a joint at rest: unknown
-  if (const Estimate* e = parameter(found, "friction")) {
+  if (const Estimate* e = best.estimate("friction")) {
     friction = e->value;
     provenance.fitted(path + "dry_friction", *e, source);
   }
-  if (const Estimate* e = parameter(found, "damping")) {
+  if (const Estimate* e = best.estimate("damping")) {
     damping = e->value;
     provenance.fitted(path + "damping", *e, source);
   }
@@ -70,7 +57,7 @@ config::Node tables_of(const JointResult& found, const JointSetup& setup, const 
     m.cam.angle = found.cam_angle;
     m.cam.radii = radii;
     muscles.push_back(std::move(m));
-    note_origin(found, what, "muscle." + name + ".mount_length", source, provenance);
+    provenance.fitted("muscle." + name + ".mount_length", best.estimate(what), source, given);
     for (const char* key : {"angle", "radius"})
       provenance.given("muscle." + name + ".cam." + key, source + ", between two points");
   };
@@ -107,7 +94,7 @@ std::string effectiveness_file(const config::Origins& start, const std::string& 
   if (!keep_force) {
     std::string text = source;
     for (const char* name : {"c0", "c1"})
-      if (const Estimate* e = parameter(found, name))
+      if (const Estimate* e = found.report.best().estimate(name))
         text += fmt::format(", {} +- {:.2g}{}", name, 0.5 * (e->high - e->low),
                             e->unit == "1" ? "" : " " + e->unit);
     provenance.fitted(path + "polynomial", "1", std::nan(""), text);

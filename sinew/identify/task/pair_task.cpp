@@ -52,12 +52,13 @@ ParameterFile file_of(const PairResult& found, const std::string& joint, const s
   Provenance provenance;
   std::vector<JointLosses> joints{{.name = joint}};
   const std::string path = "joint." + joint + ".";
-  for (const Estimate& e : found.report.best().parameters) {
-    if (e.name == "viscous") joints[0].damping = e.value;
-    if (e.name == "friction") joints[0].dry_friction = e.value;
-    if (e.name == "viscous") provenance.fitted(path + "damping", e, source);
-    if (e.name == "friction")
-      provenance.fitted(path + "dry_friction", e, source + ", with that of the muscles");
+  if (const Estimate* e = found.report.best().estimate("viscous")) {
+    joints[0].damping = e->value;
+    provenance.fitted(path + "damping", *e, source);
+  }
+  if (const Estimate* e = found.report.best().estimate("friction")) {
+    joints[0].dry_friction = e->value;
+    provenance.fitted(path + "dry_friction", *e, source + ", with that of the muscles");
   }
   config::Writer writer(&provenance.origins());
   writer.each({.name = "joint"}, joints, [](auto& v, JointLosses& j) {

@@ -240,18 +240,6 @@ PlanFound planned(PlanFound out, const PlanReader& read, std::span<const Measure
   return out;
 }
 
-// Gives muscles without a rest length the longest length of the points.
-void give_longest(std::vector<StaticPoint>& points, std::vector<std::string>& notes) {
-  double longest = 0;
-  for (const StaticPoint& p : points) longest = std::max(longest, p.length);
-  for (StaticPoint& p : points) {
-    if (p.rest_length > 0) return;
-    p.rest_length = longest;
-  }
-  notes.push_back(
-      fmt::format("No rest length given: the longest, {:.4g} mm, is taken for it.", 1e3 * longest));
-}
-
 // The target is just above the law's own error, so that mounts are added as long as possible.
 constexpr double wanted = 1.05;  // times the error of the law
 constexpr int most_mounts = 3;
@@ -329,7 +317,9 @@ PlanFound next_plan(const std::vector<Source>& sources, const PlanSettings& sett
   PlanFound out;
   out.options = read.options("");
   out.measured = data.points.size();
-  give_longest(data.points, out.remarks.notes);
+  if (const double longest = give_longest(data.points); longest > 0)
+    out.remarks.notes.push_back(fmt::format(
+        "No rest length given: the longest, {:.4g} mm, is taken for it.", 1e3 * longest));
   FittedMuscle fitted = muscle_by_points(data.points, atmosphere, known_braid(settings.actuator));
   double& top = fitted.muscle.scales.top_pressure;
   top = read.values().given(settings.pressure).value_or(top);
@@ -353,11 +343,8 @@ std::vector<Further> further_measurements(const StaticResult& result, double atm
                                           const std::optional<actuator::Braid>& braid) {
   std::vector<Further> out;
   for (const StaticMuscle& muscle : result.muscles) {
-    std::vector<StaticPoint> own;
-    for (const StaticPoint& p : result.points)
-      if (p.rest_length == muscle.rest_length) own.push_back(p);
     try {
-      out.push_back(further_of(own, atmosphere, braid));
+      out.push_back(further_of(points_of(result.points, muscle.rest_length), atmosphere, braid));
     } catch (const Refusal&) {
       continue;  // too few points for a plan: the models of the report show what is missing
     }

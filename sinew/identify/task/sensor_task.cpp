@@ -28,23 +28,6 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 // Returns whether the scale is per volt, as for potentiometers; transducers are given in volts.
 bool per_volt(SensorKind kind) { return kind == SensorKind::angle || kind == SensorKind::cylinder; }
 
-robot::Sensor::Kind kind_of(SensorKind kind) {
-  using Kind = robot::Sensor::Kind;
-  switch (kind) {
-    case SensorKind::angle:
-      return Kind::angle;
-    case SensorKind::tension:
-      return Kind::tension;
-    case SensorKind::pressure:
-      return Kind::pressure;
-    case SensorKind::velocity:
-      return Kind::velocity;
-    case SensorKind::cylinder:
-      break;
-  }
-  return Kind::cylinder;
-}
-
 }  // namespace
 
 double scale_of(const Calibration& c, double sensitivity) {
@@ -75,7 +58,7 @@ namespace {
 robot::Sensor sensor_of(const Calibration& c, const SensorResult& r, const CountScale& converter,
                         bool average) {
   const double per_count = converter.volts_per_count();
-  robot::Sensor s{.name = r.name, .kind = kind_of(c.kind)};
+  robot::Sensor s{.name = r.name, .kind = c.kind};
   s.scale = scale_of(c, r.sensitivity);
   s.at_rest = std::max(0.0, r.at_rest / per_count);
   s.noise = std::isfinite(r.noise) ? r.noise / per_count : unknown;
@@ -146,7 +129,7 @@ void check_base(const std::string& base, const Calibration& c) {
   const auto file = experiment::load_machine_file(base);
   for (const SensorResult& r : c.sensors) {
     const robot::Sensor& s = config::named(file.experiment.robot.sensors, r.name, "base", "sensor");
-    if (s.kind != kind_of(c.kind))
+    if (s.kind != c.kind)
       config::fail({base, 0, 0}, "sensor." + r.name + ".kind", "another kind",
                    std::string(facts_of(c.kind).word));
   }

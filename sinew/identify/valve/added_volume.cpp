@@ -8,6 +8,7 @@
 #include "sinew/gas/orifice.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/data/series.h"
 #include "sinew/identify/valve/fill.h"
 #include "sinew/units/quantity.h"
 
@@ -31,24 +32,6 @@ struct JointCurve {
   std::vector<std::size_t> place;  // index of each in the joint parameters; unused for C/V
 };
 
-// Straight line of 1/k over dV: 1/k = (V + dV)/C.
-struct ChamberLine {
-  double conductance = 0, volume = 0;
-};
-ChamberLine chamber_line(std::span<const double> inverse, std::span<const double> added) {
-  const auto n = static_cast<double>(inverse.size());
-  double x = 0, y = 0, xx = 0, xy = 0;
-  for (std::size_t i = 0; i < inverse.size(); ++i) {
-    x += added[i] / n;
-    y += inverse[i] / n;
-  }
-  for (std::size_t i = 0; i < inverse.size(); ++i) {
-    xx += (added[i] - x) * (added[i] - x);
-    xy += (added[i] - x) * (inverse[i] - y);
-  }
-  return {xx / xy, y * xx / xy - x};
-}
-
 // All curves, fitted together with one model.
 class JointFill {
  public:
@@ -62,12 +45,14 @@ class JointFill {
       inverse.push_back(1 / separate[i].parameters.front().value);
       added.push_back(fills[i].added);
     }
-    const ChamberLine line = chamber_line(inverse, added);
+    // The straight line of 1/k over dV: 1/k = (V + dV)/C.
+    const StraightLine line = line_through(added, inverse);
+    const double conductance = line.xx / line.xy, volume = line.y * line.xx / line.xy - line.x;
     const double most = *std::ranges::max_element(added);
-    if (!(line.conductance > 0))
+    if (!(conductance > 0))
       throw Refusal("added_volume", "a chamber that fills no slower with more volume joined to it",
                     "one that does", "the volumes, they may be exchanged between the files");
-    const double start = std::max(line.volume, 1e-3 * most), c = line.conductance;
+    const double start = std::max(volume, 1e-3 * most), c = conductance;
     parameters_ = {{"sonic_conductance", "m3/(s Pa)", c, 1e-2 * c, 100 * c, c},
                    {"volume", "m3", start, 1e-6 * most, 1e3 * (start + most), start}};
     for (std::size_t i = 0; i < curves_.size(); ++i) place(curves_[i], separate[i]);
@@ -276,10 +261,8 @@ ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions&
     refuse_unsettled(fill.data, c, options);
     report.full_scale = std::max(report.full_scale, c.range());
     report.notes.insert(report.notes.end(), c.notes.begin(), c.notes.end());
-    report.rows.at.insert(report.rows.at.end(), c.time.begin(), c.time.end());
-    report.rows.measured.insert(report.rows.measured.end(), c.pressure.begin(), c.pressure.end());
-    report.rows.group.insert(report.rows.group.end(), c.time.size(),
-                             units::format_quantity(fill.added, "m3", "L", 4) + " joined");
+    report.rows.add(c.time, c.pressure,
+                    units::format_quantity(fill.added, "m3", "L", 4) + " joined");
   }
   fit_added(fills, curves, options, report);
   const std::vector<FillSquares> squares = squares_of(report);

@@ -186,8 +186,7 @@ std::vector<double> dips_of(const Pulses& c, double width) {
 
 std::vector<std::vector<double>> starts_of(const CoilModel& model, const Pulses& c,
                                            std::span<const Parameter> parameters) {
-  std::vector<double> middle;
-  for (const Parameter& p : parameters) middle.push_back(p.start);
+  std::vector<double> middle = starts_of(parameters);
   const std::size_t top = static_cast<std::size_t>(
       std::max_element(c.current.begin(), c.current.end()) - c.current.begin());
   if (model.boost) {  // the boost ends at the largest current
@@ -253,14 +252,12 @@ ValveResult identify_coil(const Measured& data, const ValveOptions& options) {
                   "the back-EMF of the opening shutter",
                   "a faster sampling, and whether the valve opens");
 
-  for (const Estimate& e : report.best().parameters)
-    if (e.name == "opening_delay") {
-      out.valve.opening_delay = e.value;
-      out.opening_known = true;
-      out.valve.profile = gas::Valve::Profile::dead_time;
-      out.provenance.fitted("valve." + options.name + ".opening_delay", e,
-                            "sinew identify valve " + data.file + ", the current's dip");
-    }
+  const Estimate& delay = *report.best().estimate("opening_delay");
+  out.valve.opening_delay = delay.value;
+  out.opening_known = true;
+  out.valve.profile = gas::Valve::Profile::dead_time;
+  out.provenance.fitted("valve." + options.name + ".opening_delay", delay,
+                        "sinew identify valve " + data.file + ", the current's dip");
   report.notes.push_back(fmt::format(
       "closing_delay is not in the current{}: a closing shutter gives no sign once the current has "
       "gone (4.3); a pressure record shows it",

@@ -56,22 +56,15 @@ struct Bracket {
   bool closed() const { return seen_low && seen_high; }
 };
 
-Bracket opening_of(const Map& m) {
+// Returns the bracket of the opening delay, or of the closing delay: a pulse, or a gap between two,
+// that is shorter is lost.
+Bracket bracket_of(const Map& m, bool opening) {
   Bracket b;
   for (std::size_t i = 0; i < m.duty.size(); ++i) {
-    const double time = m.duty[i] / m.frequency[i];
-    if (m.none(i) && m.duty[i] > 0 && time > b.low) b.low = time, b.seen_low = true;
-    if (!m.none(i) && time < b.high) b.high = time, b.seen_high = true;
-  }
-  return b;
-}
-
-Bracket closing_of(const Map& m) {
-  Bracket b;
-  for (std::size_t i = 0; i < m.duty.size(); ++i) {
-    const double gap = (1 - m.duty[i]) / m.frequency[i];
-    if (m.all(i) && m.duty[i] < 1 && gap > b.low) b.low = gap, b.seen_low = true;
-    if (!m.all(i) && gap < b.high) b.high = gap, b.seen_high = true;
+    const double share = opening ? m.duty[i] : 1 - m.duty[i], time = share / m.frequency[i];
+    const bool is_lost = opening ? m.none(i) : m.all(i);
+    if (is_lost && share > 0 && time > b.low) b.low = time, b.seen_low = true;
+    if (!is_lost && time < b.high) b.high = time, b.seen_high = true;
   }
   return b;
 }
@@ -166,7 +159,7 @@ ValveResult identify_duty(const Measured& data, const ValveOptions& options) {
   conclude(report);
 
   Fit& fit = report.fits[report.chosen];
-  Bracket opening = opening_of(m), closing = closing_of(m);
+  Bracket opening = bracket_of(m, true), closing = bracket_of(m, false);
   const Estimate difference = report.chosen == 1 ? fit.parameters.front() : Estimate{};
   join(opening, closing, difference);
   const std::string valve = "valve." + options.name + ".";

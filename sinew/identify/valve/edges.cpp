@@ -12,9 +12,7 @@ Edges edges_of(const Measured& data) {
   const std::vector<double>&t = data["time"], &command = data["command"];
   const double half = 0.5 * (largest(command) + smallest(command));
   Edges out;
-  std::vector<double> steps;
   for (std::size_t i = 1; i < t.size(); ++i) {
-    steps.push_back(t[i] - t[i - 1]);
     const bool before = command[i - 1] > half, now = command[i] > half;
     if (now != before) out.edges.push_back({0.5 * (t[i] + t[i - 1]), now});
   }
@@ -22,7 +20,7 @@ Edges edges_of(const Measured& data) {
     throw Refusal(data.file + ": command",
                   fmt::format("{:g} throughout", command.empty() ? 0.0 : command.front()),
                   "a coil that is switched at least once", "a record from before the switch");
-  out.sample = median(steps);
+  out.sample = median(steps_of(t));
   if (command.front() > half) out.edges.insert(out.edges.begin(), {t.front() - 1e3, true});
   return out;
 }

@@ -243,10 +243,9 @@ void reach_for_fixed(std::span<const FillSquares> squares, Report& report) {
           e.high = std::max(e.high, fixed.exponent);
           e.identifiable = false;
         }
-        for (const Estimate& other : report.fits[k].parameters) {
-          if (other.name != e.name) continue;
-          e.low = std::min(e.low, other.low);
-          e.high = std::max(e.high, other.high);
+        if (const Estimate* other = report.fits[k].estimate(e.name)) {
+          e.low = std::min(e.low, other->low);
+          e.high = std::max(e.high, other->high);
           e.identifiable &= half_of(e) <= well_known;
         }
       }

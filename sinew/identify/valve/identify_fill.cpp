@@ -103,14 +103,12 @@ void add_exponent_note(Report& report) {
   for (std::size_t i = 0; i < models.size(); ++i) {
     const FillModel& m = models[i];
     if (m.shape != chosen.shape || m.flow != chosen.flow || m.exponent != 0 || m.leak) continue;
-    for (const Estimate& e : report.fits[i].parameters) {
-      if (e.name != "polytropic_exponent") continue;
+    if (const Estimate* e = report.fits[i].estimate("polytropic_exponent"))
       report.fits[report.chosen].notes.push_back(
           fmt::format("polytropic_exponent is {:g} by the model; fitted it is {:.3f}{}",
-                      chosen.exponent, e.value,
-                      e.at_bound ? ", the bound of its range"
-                                 : fmt::format(" +- {:.2g}", 0.5 * (e.high - e.low))));
-    }
+                      chosen.exponent, e->value,
+                      e->at_bound ? ", the bound of its range"
+                                  : fmt::format(" +- {:.2g}", 0.5 * (e->high - e->low))));
   }
 }
 
