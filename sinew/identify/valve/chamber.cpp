@@ -30,9 +30,9 @@ gas::Flow flow_of(const Chamber& c, const gas::Air& air, double factor) {
   return f;
 }
 
-class Rates {
+class ChamberRates {
  public:
-  Rates(const Chamber& c, const gas::Air& air)
+  ChamberRates(const Chamber& c, const gas::Air& air)
       : chamber_(c),
         valve_(gas::flow_constants(flow_of(c, air, 1), air)),
         leak_(gas::flow_constants(flow_of(c, air, c.leak), air)),
@@ -85,7 +85,7 @@ class Rates {
 };
 
 // Makes one step from y, where the rates are f, and returns its error: the larger one of both.
-double step(const Rates& rates, bool open, double h, const State& f, State& y) {
+double step(const ChamberRates& rates, bool open, double h, const State& f, State& y) {
   constexpr double delta = 1e-7;  // of a numerical derivative
   using Rate = air::QuickRates<2, 0>;
   const auto at = [&](double, const State& now, bool slopes) {
@@ -124,7 +124,7 @@ bool simulate(const Chamber& chamber, const gas::Air& air, std::span<const Openi
               std::span<const double> times, std::span<double> pressure) {
   if (!sensible(chamber)) return false;
   if (times.empty()) return true;
-  const Rates rates(chamber, air);
+  const ChamberRates rates(chamber, air);
   const double begin =
       openings.empty() ? times.front() : std::min(times.front(), openings.front().time);
 

@@ -126,7 +126,7 @@ std::vector<FreeValue> free_values(const FillModel& model, const Curve& c,
                                    const ValveOptions& options) {
   std::vector<FreeValue> out;
   const auto add = [&](std::string name, std::string unit, double start, double low, double high,
-                       double scale, double Chamber::*member) {
+                       double scale, double ValvedChamber::*member) {
     out.push_back({{std::move(name), std::move(unit), start, low, high, scale}, member});
   };
   const double k = conductance_at(c, options.air), range = c.range();
@@ -158,7 +158,7 @@ std::vector<FreeValue> free_values(const FillModel& model, const Curve& c,
   } else {  // the initial pressure is measured
     const double way = range / std::abs(c.rate);
     add("opening_instant", "s", c.opening, c.time.front() - 0.01 * way, c.opening + 0.5 * way,
-        0.1 * way, nullptr);
+        0.1 * way, &ValvedChamber::opening_instant);
   }
   return out;
 }
@@ -166,14 +166,16 @@ std::vector<FreeValue> free_values(const FillModel& model, const Curve& c,
 bool predict_fill(const FillModel& model, const Curve& c, const ValveOptions& options,
                   std::span<const FreeValue> free, std::span<const double> values,
                   std::span<double> pressure) {
-  Chamber chamber{.shape = model.shape, .law = model.flow};
-  Opening opening{c.opening, true};
+  ValvedChamber chamber;
+  chamber.shape = model.shape;
+  chamber.law = model.flow;
   if (options.exponent) chamber.exponent = *options.exponent;
   if (model.exponent > 0) chamber.exponent = model.exponent;
   if (options.port) chamber.port = *options.port;
   chamber.start = c.start;
-  for (std::size_t i = 0; i < free.size(); ++i)
-    (free[i].member ? chamber.*free[i].member : opening.time) = values[i];
+  chamber.opening_instant = c.opening;
+  for (std::size_t i = 0; i < free.size(); ++i) chamber.*free[i].member = values[i];
+  const Opening opening{chamber.opening_instant, true};
   return simulate(chamber, options.air, {&opening, 1}, c.time, pressure);
 }
 

@@ -34,10 +34,15 @@ inline const SolverOptions fill_options{
 // [% of the pressure's range].
 inline constexpr double unresolved_error = 1e-3;
 
-// A parameter and its place in the chamber; null: the opening instant.
+// A chamber, with the instant at which its valve opens, or the delays of a pulsed valve [s].
+struct ValvedChamber : Chamber {
+  double opening_instant = 0, opening_delay = 0, closing_delay = 0;
+};
+
+// A parameter and its place.
 struct FreeValue {
   Parameter parameter;
-  double Chamber::*member = nullptr;
+  double ValvedChamber::*member;
 };
 
 // Returns the free parameters of a model, with start values from the curve.

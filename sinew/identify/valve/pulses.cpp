@@ -43,21 +43,6 @@ constexpr std::array pulse_models{PulseModel{"sealed isothermal", law_sealed, fa
                                   PulseModel{"venting isothermal", law_vents, true, 1},
                                   PulseModel{"venting polytropic", law_vents, true, 0}};
 
-struct PulseCase {
-  Chamber chamber;
-  double opening = 0, closing = 0;  // delays [s]
-};
-
-struct Place {
-  double Chamber::*chamber = nullptr;
-  double PulseCase::*delay = nullptr;
-};
-
-struct Unknowns {
-  std::vector<Parameter> parameters;
-  std::vector<Place> places;
-};
-
 Record record_of(const Measured& data) {
   Record r{.time = data["time"], .pressure = data["pressure"], .commands = edges_of(data)};
   refuse_constant(data, "pressure", 5e3, "a pressure that follows the command by 5 kPa or more",
@@ -93,74 +78,61 @@ Record record_of(const Measured& data) {
   return r;
 }
 
-Unknowns unknowns_of(const PulseModel& model, const Record& r, const ValveOptions& options) {
-  Unknowns u;
-  const auto add = [&](Parameter p, Place place) {
-    u.parameters.push_back(std::move(p));
-    u.places.push_back(place);
+std::vector<FreeValue> free_values(const PulseModel& model, const Record& r,
+                                   const ValveOptions& options) {
+  std::vector<FreeValue> out;
+  const auto add = [&](Parameter p, double ValvedChamber::*member) {
+    out.push_back({std::move(p), member});
   };
   const double top = largest(r.pressure), range = r.range();
   const double flow =
       gas::mass_flow_iso6358(1.0, 0.3, r.fills ? 1.2 * top : top, options.air.temperature, 0.0);
   const double k = std::abs(r.rate) / (options.air.gas_constant * options.air.temperature * flow);
-  add({"conductance_per_volume", "1/(s Pa)", k, 1e-3 * k, 20 * k, k, true},
-      {&Chamber::conductance});
+  add({"conductance_per_volume", "1/(s Pa)", k, 1e-3 * k, 20 * k, k, true}, &Chamber::conductance);
   add({"opening_delay", "s", 0.1 * r.shortest, 0, r.shortest, 0.1 * r.shortest},
-      {nullptr, &PulseCase::opening});
+      &ValvedChamber::opening_delay);
   add({"closing_delay", "s", 0.1 * r.shortest, 0, r.shortest, 0.1 * r.shortest},
-      {nullptr, &PulseCase::closing});
-  add({"critical_pressure_ratio", "1", 0.4, 0, 0.95, 1}, {&Chamber::critical_ratio});
+      &ValvedChamber::closing_delay);
+  add({"critical_pressure_ratio", "1", 0.4, 0, 0.95, 1}, &Chamber::critical_ratio);
   if (model.exponent == 0)
-    add({"polytropic_exponent", "1", 1.2, 1, 5.0 / 3.0, 1}, {&Chamber::exponent});
-  if (model.vents) add({"vent_over_conductance", "1", 1, 1e-3, 20, 1, true}, {&Chamber::vent});
+    add({"polytropic_exponent", "1", 1.2, 1, 5.0 / 3.0, 1}, &Chamber::exponent);
+  if (model.vents) add({"vent_over_conductance", "1", 1, 1e-3, 20, 1, true}, &Chamber::vent);
   if (!options.port && r.fills)
     add({"port_pressure", "Pa abs", 1.2 * top, top - 0.05 * range, 3 * top, range, true},
-        {&Chamber::port});
+        &Chamber::port);
   add({"start_pressure", "Pa abs", r.pressure.front(),
        std::max(1e3, r.pressure.front() - 0.2 * range), r.pressure.front() + 0.2 * range, range},
-      {&Chamber::start});
-  return u;
-}
-
-PulseCase case_of(const PulseModel& model, const ValveOptions& options, const Unknowns& u,
-                  std::span<const double> p) {
-  PulseCase c;
-  c.chamber.port = options.port.value_or(options.air.atmosphere);
-  if (model.exponent > 0) c.chamber.exponent = model.exponent;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (u.places[i].chamber) c.chamber.*u.places[i].chamber = p[i];
-    if (u.places[i].delay) c.*u.places[i].delay = p[i];
-  }
-  return c;
-}
-
-std::vector<std::vector<double>> starts_of(const Unknowns& u) {
-  std::vector<std::vector<double>> out;
-  for (const double factor : {1.0, 0.2, 4.0}) {
-    out.emplace_back();
-    for (std::size_t i = 0; i < u.parameters.size(); ++i)
-      out.back().push_back(u.parameters[i].start * (u.places[i].delay ? factor : 1.0));
-  }
+      &Chamber::start);
   return out;
 }
 
+bool is_delay(const Parameter& p) { return p.name.ends_with("_delay"); }
+
 Candidate candidate_of(const PulseModel& model, const Record& r, const ValveOptions& options) {
-  const Unknowns u = unknowns_of(model, r, options);
+  const std::vector<FreeValue> free = free_values(model, r, options);
   Candidate out{.model = std::string(model.name),
                 .law = std::string(model.law),
                 .source = "3.4, gas/delay.h; ISO 6358-1",
-                .parameters = u.parameters,
-                .starts = starts_of(u),
                 .options = {.correlated = true,
                             .most_steps = 60,
                             .widest_interval = 0.25,
                             .difference = 1e-3},
                 .may_be_at_bound = {"start_pressure", "opening_delay", "closing_delay",
                                     "critical_pressure_ratio", "polytropic_exponent"}};
-  out.predict = [&model, &r, &options, u](std::span<const double> p, std::span<double> pressure) {
-    const PulseCase c = case_of(model, options, u, p);
-    return simulate(c.chamber, options.air, delayed(r.commands.edges, c.opening, c.closing), r.time,
-                    pressure);
+  for (const FreeValue& f : free) out.parameters.push_back(f.parameter);
+  for (const double factor : {1.0, 0.2, 4.0}) {
+    std::vector<double>& start = out.starts.emplace_back();
+    for (const Parameter& p : out.parameters)
+      start.push_back(p.start * (is_delay(p) ? factor : 1.0));
+  }
+  out.predict = [&model, &r, &options, free](std::span<const double> p,
+                                             std::span<double> pressure) {
+    ValvedChamber c;
+    c.port = options.port.value_or(options.air.atmosphere);
+    if (model.exponent > 0) c.exponent = model.exponent;
+    for (std::size_t i = 0; i < p.size(); ++i) c.*free[i].member = p[i];
+    return simulate(c, options.air, delayed(r.commands.edges, c.opening_delay, c.closing_delay),
+                    r.time, pressure);
   };
   return out;
 }
