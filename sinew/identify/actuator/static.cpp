@@ -13,7 +13,6 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/host/side_by_side.h"
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/actuator/static_groups.h"
@@ -21,6 +20,7 @@
 #include "sinew/identify/actuator/static_law_fitter.h"
 #include "sinew/identify/actuator/static_model.h"
 #include "sinew/identify/actuator/static_spread.h"
+#include "sinew/identify/contest/contest.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
 
@@ -80,13 +80,12 @@ constexpr RecordingError pressure_errors[] = {
 class CauseSearch {
  public:
   // `within`: largest distance from the law that counts as explained [N].
-  CauseSearch(const StaticFit& fit, const StaticScales& scales, double within)
-      : fit_(fit), scales_(scales), within_(within), least_(within) {}
+  CauseSearch(const StaticFit& fit, double within) : fit_(fit), within_(within), least_(within) {}
 
   // Compares the law at the point `as` with a force [N], and keeps `words` if it is the nearest so
   // far.
   void compare(const StaticPoint& as, double force, std::string words) {
-    const double law = predicted(fit_.setting, scales_, as);
+    const double law = predicted(fit_.setting, fit_.scales, as);
     if (law < 2 * within_) return;  // near zero force every cause fits
     const double off = std::abs(law - force);
     if (off > least_) return;
@@ -98,7 +97,6 @@ class CauseSearch {
 
  private:
   const StaticFit& fit_;
-  const StaticScales& scales_;
   double within_, least_;
   std::string words_;
 };
@@ -106,18 +104,17 @@ class CauseSearch {
 // Returns the probable cause of an outlier in words. `fit` is the law of the other points,
 // `points` are all points, `scatter` is the scatter of the points about the law [N].
 std::string explanation_of(const StaticPoint& point, const StaticFit& fit,
-                           const StaticScales& scales, std::span<const StaticPoint> points,
-                           double scatter) {
-  const double within = std::max(near_scatters * scatter, near_share * scales.full_scale);
+                           std::span<const StaticPoint> points, double scatter) {
+  const double within = std::max(near_scatters * scatter, near_share * fit.scales.full_scale);
   if (std::abs(point.force) < within)
     return "no force where the law pulls: slack, not connected, or not measured";
-  CauseSearch search(fit, scales, within);
+  CauseSearch search(fit, within);
   for (const RecordingError& cause : force_errors)
     search.compare(point, point.force / cause.factor, std::string(cause.words));
   for (const RecordingError& cause : pressure_errors) {
     StaticPoint as = point;
     as.pressure /= cause.factor;
-    if (as.pressure < 1.5 * scales.top_pressure)
+    if (as.pressure < 1.5 * fit.scales.top_pressure)
       search.compare(as, point.force, std::string(cause.words));
   }
   const double longest = std::max(0.0, largest(values_of(points, &StaticPoint::length)));
@@ -133,9 +130,8 @@ std::string explanation_of(const StaticPoint& point, const StaticFit& fit,
 
 constexpr double scatters = 8, share_of_scale = 0.05, most_left_out = 0.1;
 
-std::vector<double> distances(const StaticFit& fit, const StaticScales& scales,
-                              const std::vector<StaticPoint>& points) {
-  std::vector<double> out = residuals_of(fit.setting, scales, points);
+std::vector<double> distances(const StaticFit& fit, const std::vector<StaticPoint>& points) {
+  std::vector<double> out = residuals_of(fit, points);
   for (double& r : out) r = std::abs(r);
   return out;
 }
@@ -168,7 +164,7 @@ ClosestLaw closest_law_of(bool free, const std::vector<StaticPoint>& points,
     if (several) free_parameters.push_back(FreeParameter::end_loss);
     try {
       const StaticFit fit = fit_static(free_parameters, points, scales, nullptr, 1e-7);
-      const std::vector<double> d = distances(fit, scales, points);
+      const std::vector<double> d = distances(fit, points);
       if (closest.distances.empty() || median(d) < median(closest.distances)) closest = {fit, d};
     } catch (const Refusal&) {
       continue;  // too few points for this one
@@ -208,7 +204,7 @@ Outliers gross_outliers(const std::vector<StaticPoint>& points, const StaticScal
     return {};
   for (Outlier& o : out.points) {
     o.law = predicted(fit.setting, common, points[o.point]);
-    o.why = explanation_of(points[o.point], fit, common, points, out.scatter);
+    o.why = explanation_of(points[o.point], fit, points, out.scatter);
   }
   return out;
 }
@@ -235,11 +231,11 @@ void give_rest_length(Points& points, Report& report) {
 }
 
 // Throws Refusal if the tension falls as the pressure rises: such a law cannot be used elsewhere.
-void refuse_falling(const StaticFit& fit, const StaticScales& scales) {
+void refuse_falling(const StaticFit& fit) {
   double before = -1;
   for (int i = 0; i <= 100; ++i) {
     const actuator::Effectiveness& e = fit.setting.actuator.effectiveness;
-    const double p = scales.top_pressure * i / 100;
+    const double p = fit.scales.top_pressure * i / 100;
     const double acting = std::max(0.0, p - e.threshold) * (e.c0 + p * (e.c1 + p * e.c2));
     if (acting < before)
       throw Refusal("effectiveness", "a tension that falls as pressure rises",
@@ -313,64 +309,56 @@ std::optional<Score> held_out(const StaticLawFitter& model, const StaticFit& fit
     return score(shares, full_scale);
   }
   if (s.held_out.empty()) return std::nullopt;
-  return score(residuals_of(fit.setting, model.scales_of_fit(fit), s.held_out), full_scale);
+  return score(residuals_of(fit, s.held_out), full_scale);
 }
 
 struct Best {
-  std::optional<StaticFit> fit;
-  StaticScales scales;
+  StaticFit fit;
   StaticSpread spread;
 };
 
-Fit try_model(const StaticModel& model, const StaticSplit& s, const StaticScales& scales,
-              HoldOut hold_out, double full_scale, Best& found) {
-  Fit out{.model = std::string(model.name),
-          .law = std::string(model.law),
-          .source = std::string(model.source)};
-  try {
-    if (model.name == "effectiveness" && !scales.braid)
-      throw Refusal("braid", "no geometry", "a braid that is known: here only its turns are", "");
-    const StaticLawFitter tried(model, scales, s.fitted);
-    const StaticFit fit = tried.fit(s.fitted);
-    refuse_falling(fit, scales);
-    describe(fit, out);
-    const StaticScales own = tried.scales_of_fit(fit);
-    if (model.name != "effectiveness-by-ratio")
-      out.refit = std::make_shared<Refit>(refit_of(fit, s.fitted, own));
-    out.residuals = residuals_of(fit.setting, own, s.fitted);
-    out.fit = score(out.residuals, full_scale);
-    const std::vector<double> held_out_residuals = residuals_of(fit.setting, own, s.held_out);
-    out.residuals.insert(out.residuals.end(), held_out_residuals.begin(), held_out_residuals.end());
-    const std::vector<LeftOut> muscles = tried.leave_out_muscles(s.fitted);
-    out.held_out = held_out(tried, fit, s, muscles, hold_out, full_scale);
-    const StaticSpread spread = cross_validate(tried, s.fitted, fit, muscles, full_scale, out);
-    std::vector<std::string_view> allowed(std::begin(may_be_at_bound), std::end(may_be_at_bound));
-    for (const Estimate& e : out.parameters)
-      if (e.name.starts_with(rest_length_error)) allowed.push_back(e.name);
-    keep_off_bounds(out, allowed);
-    found = {fit, own, spread};
-  } catch (const Refusal& refusal) {
-    out.refused = refusal.what();
-  }
-  return out;
+// Fits the law to the points, and predicts parts of them that it was not fitted to.
+void try_model(const StaticModel& model, const StaticSplit& s, const StaticScales& scales,
+               HoldOut hold_out, double full_scale, Best& found, Fit& out) {
+  if (model.name == "effectiveness" && !scales.braid)
+    throw Refusal("braid", "no geometry", "a braid that is known: here only its turns are", "");
+  const StaticLawFitter tried(model, scales, s.fitted);
+  const StaticFit fit = tried.fit(s.fitted);
+  refuse_falling(fit);
+  describe(fit, out);
+  if (model.name != "effectiveness-by-ratio")
+    out.refit = std::make_shared<Refit>(refit_of(fit, s.fitted));
+  out.fit = score(residuals_of(fit, s.fitted), full_scale);
+  out.residuals = residuals_of(fit, all_points(s));
+  const std::vector<LeftOut> muscles = tried.leave_out_muscles(s.fitted);
+  out.held_out = held_out(tried, fit, s, muscles, hold_out, full_scale);
+  found = {fit, cross_validate(tried, s.fitted, fit, muscles, full_scale, out)};
+  std::vector<std::string_view> allowed(std::begin(may_be_at_bound), std::end(may_be_at_bound));
+  for (const Estimate& e : out.parameters)
+    if (e.name.starts_with(rest_length_error)) allowed.push_back(e.name);
+  keep_off_bounds(out, allowed);
 }
 
-// Fits all laws in parallel.
-std::vector<Fit> try_all(const StaticSplit& s, const StaticScales& scales,
-                         const StaticOptions& options, double full_scale,
-                         std::vector<Best>& found) {
-  std::vector<const StaticModel*> models;
+// Fits all laws, or the one of the options. Returns the fit of each, in their order in the report.
+std::vector<Best> try_all(const StaticSplit& s, const StaticScales& scales,
+                          const StaticOptions& options, Report& report) {
+  std::vector<Best> found(static_models().size());
+  std::vector<Candidate> candidates;
   for (const StaticModel& model : static_models())
-    if (options.model.empty() || model.name == options.model) models.push_back(&model);
-  std::vector<Fit> fits(models.size());
-  found.resize(models.size());
-  const auto attempt = [&](std::size_t k) {
-    fits[k] = try_model(*models[k], s, scales, options.hold_out, full_scale, found[k]);
-  };
-  host::side_by_side(models.size(), attempt, options.tried);
-  return fits;
+    if (options.model.empty() || model.name == options.model) {
+      Best& best = found[candidates.size()];
+      candidates.push_back({.model = std::string(model.name),
+                            .law = std::string(model.law),
+                            .source = std::string(model.source),
+                            .may_be_at_bounds = true,
+                            .fit = [&](Fit& out) {
+                              try_model(model, s, scales, options.hold_out, report.full_scale, best,
+                                        out);
+                            }});
+    }
+  fit_candidates(std::move(candidates), {}, report, options.tried);
+  return found;
 }
-
 // Returns the number of tests of a law's form over the length: lengths between the ends of each
 // muscle, and whole muscles if there are several.
 std::size_t tests_of_form(const Points& points) {
@@ -467,8 +455,7 @@ StaticOmitted drop_gross_outliers(Points& points, const StaticOptions& options, 
 // found from the other muscles: the one with the smallest error on the muscle's rows at their
 // labelled lengths, because a user of the file measures those. In the fit an error of the label
 // also moves the mount at rest.
-void set_file(const StaticFit& fit, const StaticScales& scales, const Points& points,
-              StaticMuscle& muscle) {
+void set_file(const StaticFit& fit, const Points& points, StaticMuscle& muscle) {
   constexpr int steps = 20;
   const double whole = rest_length_of(fit.setting, muscle.rest_length) - muscle.rest_length;
   muscle.rms = std::numeric_limits<double>::infinity();
@@ -477,10 +464,10 @@ void set_file(const StaticFit& fit, const StaticScales& scales, const Points& po
     const double error = whole * k / steps;
     for (RestLengthError& label : setting.rest_lengths)
       if (label.labelled == muscle.rest_length) label.error = error;
-    const actuator::Actuator a = scaled(setting, scales, muscle.rest_length);
+    const actuator::Actuator a = scaled(setting, fit.scales, muscle.rest_length);
     std::vector<double> off, variances;
     for (const StaticPoint& p : points_of(points, muscle.rest_length)) {
-      off.push_back(std::max(0.0, law_force(a, p.length, p, scales.atmosphere)) - p.force);
+      off.push_back(std::max(0.0, law_force(a, p.length, p, fit.scales.atmosphere)) - p.force);
       variances.push_back(p.variance);
     }
     const double rms = score(off, 1).rmse;
@@ -495,8 +482,7 @@ void set_file(const StaticFit& fit, const StaticScales& scales, const Points& po
   }
 }
 
-std::vector<StaticMuscle> muscles_of(const StaticFit& fit, const StaticScales& scales,
-                                     const Points& points) {
+std::vector<StaticMuscle> muscles_of(const StaticFit& fit, const Points& points) {
   std::vector<StaticMuscle> out;
   for (const StaticPoint& p : points) {
     if (out.empty() || out.back().rest_length != p.rest_length) {
@@ -509,7 +495,7 @@ std::vector<StaticMuscle> muscles_of(const StaticFit& fit, const StaticScales& s
     m.lowest = std::min(m.lowest, p.pressure);
     m.highest = std::max(m.highest, p.pressure);
   }
-  for (StaticMuscle& m : out) set_file(fit, scales, points, m);
+  for (StaticMuscle& m : out) set_file(fit, points, m);
   std::reverse(out.begin(), out.end());
   return out;
 }
@@ -521,7 +507,7 @@ void note_files(const StaticResult& found, Report& report) {
   for (const StaticMuscle& m : found.muscles) {
     const Points own = points_of(found.points, m.rest_length);
     const double full = largest(values_of(own, &StaticPoint::force));
-    const Score fit = score(residuals_of(found.fit.setting, found.scales, own), full);
+    const Score fit = score(residuals_of(found.fit, own), full);
     if (!(100 * m.rms / full > more * fit.rmse_percent)) continue;
     report.notes.push_back(fmt::format(
         "the file of the muscle labelled {:.4g} mm has a rest length of {:.4g} mm and misses its "
@@ -531,14 +517,13 @@ void note_files(const StaticResult& found, Report& report) {
 }
 
 // Notes the error of the common model on each muscle.
-void note_muscles(const StaticFit& fit, const StaticScales& scales, const Points& points,
-                  Report& report) {
+void note_muscles(const StaticFit& fit, const Points& points, Report& report) {
   const std::set<double> muscles = muscles_in(points);
   if (muscles.size() < 2) return;
   for (const double m : muscles) {
     const Points own = points_of(points, m);
     const double full = std::max(0.0, largest(values_of(own, &StaticPoint::force)));
-    const Score s = score(residuals_of(fit.setting, scales, own), full);
+    const Score s = score(residuals_of(fit, own), full);
     report.notes.push_back(fmt::format(
         "one model for all: the muscle of {:.4g} mm {:.2f} % rmse, {:.2f} % at most, of its own "
         "largest force",
@@ -549,7 +534,7 @@ void note_muscles(const StaticFit& fit, const StaticScales& scales, const Points
 // Gives the law the known volume of air, and reports it.
 void set_air(const StaticOptions& options, StaticResult& out) {
   actuator::Actuator& a = out.fit.setting.actuator;
-  const double rest = out.scales.rest_length;
+  const double rest = out.fit.scales.rest_length;
   out.air = air_by_force(a, rest);
   const double by_force = out.air.volume;
   const double known =
@@ -610,13 +595,12 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   points = all_points(s);
   sort_points(points);
   report.full_scale = scales_of(points, options.atmosphere, options.braid).full_scale;
-  out.scales = scales_of(s.fitted, options.atmosphere, options.braid);
-  if (!(out.scales.full_scale > 0))
+  const StaticScales scales = scales_of(s.fitted, options.atmosphere, options.braid);
+  if (!(scales.full_scale > 0))
     throw Refusal("forces", "none above zero among what is to be fitted", "a muscle that pulls",
                   "the sign of the force");
 
-  std::vector<Best> found;
-  report.fits = try_all(s, out.scales, options, report.full_scale, found);
+  const std::vector<Best> found = try_all(s, scales, options, report);
   report.rows = rows_of(s);
   const std::size_t tests = tests_of_form(s.fitted);
   const bool is_prior = tests < 2 && prefer_saturating(report);
@@ -630,13 +614,12 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
     refuse_unexplained(
         report, 15,
         "names.COLUMN=NAME or units.NAME=UNIT: columns may be swapped or in other units");
-  out.fit = *found[report.chosen].fit;
+  out.fit = found[report.chosen].fit;
   out.spread = found[report.chosen].spread;
-  out.scales = found[report.chosen].scales;
   set_air(options, out);
-  out.muscles = muscles_of(out.fit, out.scales, s.fitted);
+  out.muscles = muscles_of(out.fit, s.fitted);
   out.points = s.fitted;
-  note_muscles(out.fit, out.scales, points, report);
+  note_muscles(out.fit, points, report);
   note_files(out, report);
   show_static(s, left_out, out);
   return out;

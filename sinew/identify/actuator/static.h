@@ -64,11 +64,10 @@ struct StaticMuscle {
 struct StaticResult {
   Report report;
   std::vector<StaticMuscle> muscles;  // the reference, which is the longest, first
-  StaticScales scales;
-  StaticFit fit;                    // chosen law, fitted to all points that are not held out
-  StaticSpread spread;              // errors on points that it was not fitted to
-  std::vector<StaticPoint> points;  // fitted points
-  AirAtRest air;                    // air of the reference muscle
+  StaticFit fit;                      // chosen law, fitted to all points that are not held out
+  StaticSpread spread;                // errors on points that it was not fitted to
+  std::vector<StaticPoint> points;    // fitted points
+  AirAtRest air;                      // air of the reference muscle
 };
 
 // Identifies the static law. Throws Refusal if the data support no model or the model's name is

@@ -66,7 +66,7 @@ std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
         path + key,
         scaled_estimate(result.fit.solution.estimates[i], value_of(own, free_parameter)), source);
   }
-  if (result.scales.braid)
+  if (result.fit.scales.braid)
     for (const char* key : {"braid.thread_length", "braid.turns"})
       provenance.given(path + key, braid_source);
   const std::string by_air = result.air.kappa != 1 ? "; with the volume of air at rest" : "";
@@ -82,7 +82,7 @@ std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
   a.effectiveness.valid_from = std::max(0.0, muscle.lowest);
   a.effectiveness.valid_to = muscle.highest;
   a.bladder.valid_from =  // braid_length(): ends that give way shorten the braid
-      actuator::braid_length(a, shortest, muscle.highest, result.scales.atmosphere);
+      actuator::braid_length(a, shortest, muscle.highest, result.fit.scales.atmosphere);
   a.bladder.valid_to = std::max(longest, shortest * 1.0001);
   provenance.given(path + "effectiveness.valid", "pressures in " + source);
   provenance.given(path + "bladder.valid", "lengths in " + source);

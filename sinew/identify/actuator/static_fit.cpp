@@ -328,10 +328,15 @@ std::vector<double> residuals_of(const StaticSetting& setting, const StaticScale
   return out;
 }
 
+std::vector<double> residuals_of(const StaticFit& fit, std::span<const StaticPoint> points) {
+  return residuals_of(fit.setting, fit.scales, points);
+}
+
 StaticFit fit_static(const std::vector<FreeParameter>& free_parameters,
                      std::span<const StaticPoint> points, const StaticScales& scales,
                      const StaticFit* start, double tolerance) {
-  StaticFit out{.free_parameters = free_parameters, .variance = variance_within(points)};
+  StaticFit out{
+      .scales = scales, .free_parameters = free_parameters, .variance = variance_within(points)};
   Problem problem(out.free_parameters, points, scales);
   const std::size_t parameters = problem.parameters().size();
   const std::vector<int> settings = setting_groups({points.begin(), points.end()});
@@ -395,8 +400,7 @@ StaticFit fit_static(const std::vector<FreeParameter>& free_parameters,
   return out;
 }
 
-Refit refit_of(const StaticFit& fit, std::span<const StaticPoint> points,
-               const StaticScales& scales) {
+Refit refit_of(const StaticFit& fit, std::span<const StaticPoint> points) {
   struct Held {
     std::vector<FreeParameter> free_parameters;
     std::vector<StaticPoint> points;
@@ -405,7 +409,7 @@ Refit refit_of(const StaticFit& fit, std::span<const StaticPoint> points,
   };
   // Clang 14 cannot make an aggregate by std::make_shared.
   const std::shared_ptr<const Held> held(
-      new Held{fit.free_parameters, std::vector(points.begin(), points.end()), scales});
+      new Held{fit.free_parameters, std::vector(points.begin(), points.end()), fit.scales});
   FitProblem out{.count = held->problem.count(),
                  .parameters = fit.parameters,
                  .options = {.outlier = outlier * fit.scatter},
@@ -448,7 +452,8 @@ StaticFit fit_by_ratio(std::span<const StaticPoint> points, const StaticScales& 
     ++s.count;
   }
 
-  StaticFit out{.free_parameters = {FreeParameter::eff_constant, FreeParameter::eff_linear,
+  StaticFit out{.scales = of_braid,
+                .free_parameters = {FreeParameter::eff_constant, FreeParameter::eff_linear,
                                     FreeParameter::eff_quadratic},
                 .variance = variance_within(points)};
   std::vector<Parameter> parameters;
@@ -468,7 +473,7 @@ StaticFit fit_by_ratio(std::span<const StaticPoint> points, const StaticScales& 
     out.setting.rest_lengths.push_back({.labelled = r.labelled});
   for (std::size_t i = 0; i < out.free_parameters.size(); ++i)
     value_of(out.setting, out.free_parameters[i]) = out.solution.values[i];
-  out.solution.residuals = residuals_of(out.setting, of_braid, points);
+  out.solution.residuals = residuals_of(out, points);
   out.scatter = scatter_of(out.solution.residuals, points, scales);
   return out;
 }

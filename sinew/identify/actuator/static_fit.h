@@ -21,6 +21,7 @@
 namespace sinew::identify {
 
 struct StaticFit {
+  StaticScales scales;
   StaticSetting setting;
   std::vector<FreeParameter> free_parameters;
   Solution solution;  // free parameters, then fitted rest lengths; residuals of points alone
@@ -44,9 +45,10 @@ double law_force(const actuator::Actuator& a, double length, const StaticPoint& 
 double predicted(const StaticSetting& setting, const StaticScales& scales,
                  const StaticPoint& point);
 
-// Returns predicted - measured force of every point [N].
+// Return predicted - measured force of every point [N].
 std::vector<double> residuals_of(const StaticSetting& setting, const StaticScales& scales,
                                  std::span<const StaticPoint> points);
+std::vector<double> residuals_of(const StaticFit& fit, std::span<const StaticPoint> points);
 
 // Fits the free parameters to the points. `start`: a solution with the same parameters, whose
 // bounds and frozen parameters are kept. `tolerance`: see SolverOptions. Throws Refusal if there
@@ -56,8 +58,7 @@ StaticFit fit_static(const std::vector<FreeParameter>& free_parameters,
                      const StaticFit* start = nullptr, double tolerance = 1e-14);
 
 // Returns the problem that such a fit has solved, for its profiles.
-Refit refit_of(const StaticFit& fit, std::span<const StaticPoint> points,
-               const StaticScales& scales);
+Refit refit_of(const StaticFit& fit, std::span<const StaticPoint> points);
 
 // Fits the method of the thesis, 2.3: the effectiveness at each nominal pressure as a ratio of
 // sums, with a parabola through them. The braid is the given one, or that of an ideal fit.

@@ -176,10 +176,8 @@ StaticLawFitter::StaticLawFitter(const StaticModel& model, const StaticScales& s
       throw Refusal("lengths", "one length only", "several for this", "");
 }
 
-bool StaticLawFitter::by_ratio() const { return model_.name == "effectiveness-by-ratio"; }
-
 StaticFit StaticLawFitter::fit(const Points& points, const StaticFit* start) const {
-  if (by_ratio()) return fit_by_ratio(points, scales_);
+  if (model_.name == "effectiveness-by-ratio") return fit_by_ratio(points, scales_);
   return fit_static(free_parameters_, points, scales_, start,
                     start ? left_out_tolerance : whole_tolerance);
 }
@@ -190,9 +188,7 @@ HeldOutErrors StaticLawFitter::cross(const Points& points, const std::vector<int
   for (int k = 0; k < parts; ++k) {
     const StaticSplit s = split(points, [&](std::size_t i) { return part[i] != k; });
     if (s.held_out.empty()) continue;
-    const StaticFit one = fit(s.fitted, &whole);
-    const StaticScales own = scales_of_fit(one);
-    out.add(held_out_errors(one, own, s.held_out));
+    out.add(held_out_errors(fit(s.fitted, &whole), s.held_out));
   }
   return out;
 }
@@ -202,9 +198,7 @@ LeftOut StaticLawFitter::leave_out(const Points& points, double muscle) const {
       split(points, [&](std::size_t i) { return points[i].rest_length != muscle; });
   const StaticScales scales = scales_of(s.fitted, scales_.atmosphere, scales_.braid);
   const StaticLawFitter others(model_, scales, s.fitted);
-  const StaticFit one = others.fit(s.fitted);
-  const StaticScales own = others.scales_of_fit(one);
-  LeftOut left{.rest_length = muscle, .errors = held_out_errors(one, own, s.held_out)};
+  LeftOut left{.rest_length = muscle, .errors = held_out_errors(others.fit(s.fitted), s.held_out)};
   for (const StaticPoint& p : s.held_out) left.largest = std::max(left.largest, p.force);
   left.score = score(left.errors.residuals, left.largest);
   std::vector<double> shares;
@@ -229,12 +223,6 @@ std::vector<LeftOut> StaticLawFitter::leave_out_muscles(const Points& points) co
       continue;  // too few other points; cross_validate() notes it
     }
   }
-  return out;
-}
-
-StaticScales StaticLawFitter::scales_of_fit(const StaticFit& fit) const {
-  StaticScales out = scales_;
-  if (by_ratio()) out.braid = fit.setting.actuator.braid;
   return out;
 }
 

@@ -42,11 +42,7 @@ class StaticLawFitter {
   // points or lengths. Scales and free parameters are set up from the others alone.
   std::vector<LeftOut> leave_out_muscles(const std::vector<StaticPoint>& points) const;
 
-  // Returns the scales that a fit is computed with: the ratio method (2.3) has its own braid.
-  StaticScales scales_of_fit(const StaticFit& fit) const;
-
  private:
-  bool by_ratio() const;
   // Throws Refusal if the other muscles have too few points or lengths.
   LeftOut leave_out(const std::vector<StaticPoint>& points, double muscle) const;
 

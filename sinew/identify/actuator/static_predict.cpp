@@ -47,7 +47,7 @@ Width width_of(const StaticResult& result, const std::vector<double>& lengths,
   std::vector<StaticPoint> three(3, point);
   const bool is_between = std::isfinite(above - below) && above > below;
   if (is_between) three[1].length = below, three[2].length = above;
-  const std::vector<double> w = widths(result.fit, result.scales, three);
+  const std::vector<double> w = widths(result.fit, three);
   const double part = is_between ? (point.length - below) / (above - below) : 0;
   const double square = (1 - part) * w[1] * w[1] + part * w[2] * w[2];
   return {std::sqrt(square), std::sqrt(std::max(0.0, w[0] * w[0] - square))};
@@ -115,7 +115,7 @@ StaticMuscle muscle_of(const StaticResult& result, double rest_length) {
   if (const StaticMuscle* m = fitted(result, rest_length)) return *m;
   StaticMuscle out = result.muscles.front();
   const double ratio = rest_length / out.rest_length;
-  out.actuator = scaled(result.fit.setting, result.scales, rest_length);
+  out.actuator = scaled(result.fit.setting, result.fit.scales, rest_length);
   out.rest_length = out.file_length = rest_length;
   out.half_68 = out.half_95 = 0;
   for (double& length : out.lengths) length *= ratio;
@@ -127,22 +127,22 @@ StaticForce predict(const StaticResult& result, const StaticPoint& point) {
   const StaticMuscle muscle = muscle_of(result, point.rest_length);
   std::vector<StaticPoint> one{point};
   one[0].rest_length = muscle.rest_length;
-  StaticForce out{.force = predicted(result.fit.setting, result.scales, one[0])};
+  StaticForce out{.force = predicted(result.fit.setting, result.fit.scales, one[0])};
   const double longest = muscle.lengths.back();
   const bool is_between = within(point.length, muscle.lengths.front(), longest);
   const bool inside = is_between && within(point.pressure, muscle.lowest, muscle.highest);
   Quantiles q = inside ? spread.inside : spread.beyond;
   if (point.length > (1 + actuator::same_length) * longest) q = {};
   const bool is_fitted = fitted(result, point.rest_length) != nullptr;
-  const Width width = is_fitted ? width_of(result, muscle.lengths, one[0])
-                                : Width{widths(result.fit, result.scales, one)[0]};
+  const Width width =
+      is_fitted ? width_of(result, muscle.lengths, one[0]) : Width{widths(result.fit, one)[0]};
   out.half_68 = q.q68 * width.sigma;
   out.half_95 = q.q95 * width.sigma;
   if (!is_fitted) {
     const StaticPoint top{
         .length = longest, .pressure = muscle.highest, .rest_length = muscle.rest_length};
     const double scale =
-        std::hypot(predicted(result.fit.setting, result.scales, top), by_force * out.force);
+        std::hypot(predicted(result.fit.setting, result.fit.scales, top), by_force * out.force);
     const auto of_muscle = [scale](double share) {
       return share > 0 ? share * scale : std::numeric_limits<double>::infinity();
     };
@@ -165,7 +165,8 @@ actuator::Prediction prediction_of(const StaticResult& result, const StaticMuscl
   if (!fitted(result, m.rest_length)) {
     actuator::Actuator reference = result.muscles.front().actuator;
     reference.prediction = prediction_of(result, result.muscles.front());
-    Intervals out = with_rest_length(reference, m.rest_length, result.scales.atmosphere).prediction;
+    Intervals out =
+        with_rest_length(reference, m.rest_length, result.fit.scales.atmosphere).prediction;
     out.lengths = m.lengths;
     return out;
   }

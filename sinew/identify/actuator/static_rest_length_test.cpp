@@ -144,11 +144,11 @@ TEST(RestLength, AFileIsScoredOnTheRowsThatItWasMadeFrom) {
         StaticSetting setting = found.fit.setting;
         for (RestLengthError& label : setting.rest_lengths)
           if (label.labelled == m.rest_length) label.error = error;
-        const actuator::Actuator a = scaled(setting, found.scales, m.rest_length);
+        const actuator::Actuator a = scaled(setting, found.fit.scales, m.rest_length);
         std::vector<double> off;
         for (const StaticPoint& p : found.points)
           if (p.rest_length == m.rest_length)
-            off.push_back(std::max(0.0, law_force(a, p.length, p, found.scales.atmosphere)) -
+            off.push_back(std::max(0.0, law_force(a, p.length, p, found.fit.scales.atmosphere)) -
                           p.force);
         return off;
       };
@@ -172,12 +172,12 @@ TEST(RestLength, AnUnseenMuscleIsPredictedWithAnErrorOfItsOwn) {
   const double rest = 0.16 + 1e-5, step = rest_length_deviation(rest);
   const StaticPoint seen{.length = 0.155, .pressure = 5e5, .rest_length = 0.16};
   const StaticPoint unseen{.length = 0.155, .pressure = 5e5, .rest_length = rest};
-  const double known = widths(found.fit, found.scales, std::vector{seen})[0];
-  const double wider = widths(found.fit, found.scales, std::vector{unseen})[0];
+  const double known = widths(found.fit, std::vector{seen})[0];
+  const double wider = widths(found.fit, std::vector{unseen})[0];
   StaticSetting more = found.fit.setting;
   more.rest_lengths.push_back({rest, step});
-  const double worth =
-      predicted(more, found.scales, unseen) - predicted(found.fit.setting, found.scales, unseen);
+  const double worth = predicted(more, found.fit.scales, unseen) -
+                       predicted(found.fit.setting, found.fit.scales, unseen);
   EXPECT_GT(std::abs(worth), 2);  // [N]
   EXPECT_GT(wider, std::hypot(0.9 * known, 0.9 * worth));
   EXPECT_LT(wider, std::hypot(1.5 * known, 1.1 * worth));

@@ -67,14 +67,13 @@ void HeldOutErrors::add(const HeldOutErrors& other) {
   variances.insert(variances.end(), other.variances.begin(), other.variances.end());
 }
 
-std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
-                           std::span<const StaticPoint> points) {
+std::vector<double> widths(const StaticFit& fit, std::span<const StaticPoint> points) {
   const std::vector<RestLengthError>& known = fit.setting.rest_lengths;
   const std::vector<double>& covariance = fit.solution.covariance;
   std::vector<double> out;
   ForceSlopes slopes;
   for (const StaticPoint& point : points) {
-    const MuscleLaw law(fit.setting, scales, point.rest_length);
+    const MuscleLaw law(fit.setting, fit.scales, point.rest_length);
     const double length = fitted_length(fit.setting, point), force = law.force(length, point);
     law.write_slopes(length, point, force, slopes);
     const double pulls = force > 0 ? 1 : 0;
@@ -102,11 +101,10 @@ std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
   return out;
 }
 
-HeldOutErrors held_out_errors(const StaticFit& fit, const StaticScales& scales,
-                              std::span<const StaticPoint> points) {
-  HeldOutErrors out{residuals_of(fit.setting, scales, points), widths(fit, scales, points)};
+HeldOutErrors held_out_errors(const StaticFit& fit, std::span<const StaticPoint> points) {
+  HeldOutErrors out{residuals_of(fit, points), widths(fit, points)};
   for (const StaticPoint& p : points) out.variances.push_back(p.variance);
-  const double slack = slack_share * scales.full_scale;
+  const double slack = slack_share * fit.scales.full_scale;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i].force < slack && points[i].force + out.residuals[i] < slack)
       out.widths[i] = std::nan("");

@@ -115,13 +115,11 @@ struct HeldOutErrors {
 
 // Applies a fit to points that were left out of it. A point that is slack both measured and
 // predicted has no width (NaN): its small error is not evidence about points that pull.
-HeldOutErrors held_out_errors(const StaticFit& fit, const StaticScales& scales,
-                              std::span<const StaticPoint> points);
+HeldOutErrors held_out_errors(const StaticFit& fit, std::span<const StaticPoint> points);
 
 // Returns sigma_F of each point [N]. Directions that the data do not determine are left out; q
 // includes their effect.
-std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
-                           std::span<const StaticPoint> points);
+std::vector<double> widths(const StaticFit& fit, std::span<const StaticPoint> points);
 
 // Returns the quantiles of |error|/sigma_F of readings, at points that have a width: that of 95 %
 // at most 2.5 times the root mean square. Fewer than 20 points: Student's factor times that.

@@ -108,26 +108,31 @@ Solution solved(const Candidate& candidate, FitProblem& problem) {
   return std::move(*best);
 }
 
+// Fits the candidate to the rows of the trial, and scores it.
+void fit_rows(const Candidate& candidate, const Trial& trial, double full_scale, Fit& out) {
+  const Rowset rows = trial.rows.empty() ? all_of(trial.measured) : trial.rows;
+  FitProblem problem = problem_of(candidate, trial, rows);
+  Solution found = solved(candidate, problem);
+  out.parameters = found.estimates;
+  out.fit = score(found.residuals, full_scale);
+  out.residuals = misses(candidate, trial.measured, found.values);
+  if (!trial.splits.empty() || candidate.left_out) {
+    const std::vector<double> left = left_out_residuals(candidate, trial, rows, problem, found);
+    (trial.cross_validates ? out.cross_validated : out.held_out) = score(left, full_scale);
+    if (trial.has_band) out.band = band_of(left, trial.band_where);
+    if (trial.shows_left_out) out.residuals.insert(out.residuals.end(), left.begin(), left.end());
+  }
+  out.refit = std::make_shared<Refit>(Refit{std::move(problem), std::move(found)});
+}
+
 Fit fit_of(const Candidate& candidate, const Trial& trial, double full_scale) {
   Fit out{.model = candidate.model, .law = candidate.law, .source = candidate.source};
   out.refused = candidate.refused;
   out.notes = candidate.notes;
   if (!out.refused.empty()) return out;
-  const Rowset rows = trial.rows.empty() ? all_of(trial.measured) : trial.rows;
   try {
-    FitProblem problem = problem_of(candidate, trial, rows);
-    Solution found = solved(candidate, problem);
-    out.parameters = found.estimates;
-    out.fit = score(found.residuals, full_scale);
-    out.residuals = misses(candidate, trial.measured, found.values);
-    if (!trial.splits.empty() || candidate.left_out) {
-      const std::vector<double> left = left_out_residuals(candidate, trial, rows, problem, found);
-      (trial.cross_validates ? out.cross_validated : out.held_out) = score(left, full_scale);
-      if (trial.has_band) out.band = band_of(left, trial.band_where);
-      if (trial.shows_left_out) out.residuals.insert(out.residuals.end(), left.begin(), left.end());
-    }
+    candidate.fit ? candidate.fit(out) : fit_rows(candidate, trial, full_scale, out);
     if (!candidate.may_be_at_bounds) keep_off_bounds(out, candidate.may_be_at_bound);
-    out.refit = std::make_shared<Refit>(Refit{std::move(problem), std::move(found)});
   } catch (const Refusal& refusal) {
     out.refused = refusal.what();
   }

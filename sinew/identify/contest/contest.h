@@ -38,6 +38,10 @@ struct Candidate {
   std::string refused;                            // reason known before a fit; empty: it is fitted
   std::vector<std::string> notes;                 // as in Fit
 
+  // Fits the law in a way of its own, instead of `predict` to the rows of the trial, and writes all
+  // of the result. Throws Refusal. Empty: `predict` is fitted.
+  std::function<void(Fit& out)> fit;
+
   // Returns predicted - measured for data that take more than the rows of a split, such as a
   // recording with a start of its own, by the solution for all rows. Empty: the splits are used.
   std::function<std::vector<double>(const Solution& whole)> left_out;
