@@ -302,20 +302,14 @@ class Search {
     Information known = begin_;
     std::vector<PlannedMount> out;
     while (!left.empty()) {
-      std::size_t best = 0;
-      double least = 0;
-      for (std::size_t i = 0; i < left.size(); ++i) {
-        const double v = value_of(sum(known, left[i]));
-        if (i > 0 && v >= least) continue;
-        best = i;
-        least = v;
-      }
-      known += left[best].own;
-      PlannedMount mount{.length = left[best].length, .pressures = left[best].pressures};
+      const auto best = std::ranges::min_element(
+          left, {}, [&](const Candidate& c) { return value_of(sum(known, c)); });
+      known += best->own;
+      PlannedMount mount{.length = best->length, .pressures = best->pressures};
       mount.time = options_.mount_time + static_cast<double>(mount.readings()) * options_.step_time;
       mount.after = space_.error(known);
       out.push_back(mount);
-      left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
+      left.erase(best);
     }
     return out;
   }
