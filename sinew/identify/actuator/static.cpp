@@ -8,7 +8,6 @@
 #include <limits>
 #include <set>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>

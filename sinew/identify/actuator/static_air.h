@@ -13,8 +13,6 @@
 // The force does not depend on kappa. A braid that is given is not changed: kappa = 1.
 #pragma once
 
-#include <string>
-
 #include "sinew/actuator/actuator.h"
 #include "sinew/json/json.h"
 

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/identify/actuator/static.h"

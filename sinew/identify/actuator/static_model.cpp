@@ -1,6 +1,5 @@
 #include "sinew/identify/actuator/static_model.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -23,7 +23,6 @@
 #include <cmath>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 

@@ -20,8 +20,6 @@
 // (static_across_test.cpp).
 #pragma once
 
-#include <optional>
-
 #include "sinew/actuator/actuator.h"
 #include "sinew/identify/actuator/static.h"
 

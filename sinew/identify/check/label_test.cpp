@@ -1,6 +1,5 @@
 // A wrong label is named with the correct length; correct ones are not reported, for any law of the
 // muscle.
-#include "sinew/identify/check/plausible.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,6 @@
 #include "sinew/identify/contest/bounds.h"
 
 #include <algorithm>
-#include <cmath>
-#include <string>
 #include <vector>
 
 #include "sinew/identify/contest/refusal.h"

@@ -14,9 +14,7 @@
 //   leak        muscle.<name>.leak.conductance; leak.area where the description has one
 #pragma once
 
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "sinew/experiment/experiment.h"

@@ -1,5 +1,5 @@
 // Intervals of normal distributions that are limited by boxes.
-#include "sinew/identify/machine/run_mixture.h"
+#include "sinew/identify/machine/run_search.h"
 
 #include <gtest/gtest.h>
 

@@ -11,11 +11,10 @@
 //
 // Neighbouring cells that the run does not exclude are searched too. The last step is without
 // bounds, along the tangent: this step and J^T J give the distribution within a cell; the lost
-// pulses show that a delay is in it (run_mixture.h).
+// pulses show that a delay is in it (below).
 #pragma once
 
 #include <atomic>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -101,7 +100,7 @@ std::vector<double> linearised_costs(const RunResiduals& residuals,
                                      const std::vector<std::vector<double>>& places, int threads);
 
 // Estimates of all parameters after a search. An interval is the middle 95 % over the cells that
-// the run does not exclude (run_mixture.h).
+// the run does not exclude (below).
 struct RunJudged {
   std::vector<Estimate> estimates;
   std::vector<double> covariance;  // row by row; infinite for undetermined parameters
@@ -135,5 +134,33 @@ struct RunTangent {
 bool run_tangent(const RunResiduals& residuals, std::span<const Parameter> parameters,
                  std::span<const RunCell> cells, const std::vector<double>& p, int threads,
                  RunTangent& out, double by = short_difference);
+
+// --- intervals over cells ---
+//
+// Distribution of parameters as a mixture of normal distributions, each within its own box: dead
+// times have cells, and in each cell that the run does not exclude the readings give another
+// distribution.
+//
+//   p(x)  ~  sum over the pieces of  exp(-c) exp(-|z|^2/2)  within the piece's box
+//
+//   x = middle + spread z      z of unit normals, spread upper triangular
+//   c                          half the sum of squares at the piece's own minimum
+//
+// The middle 95 % of each parameter come from seeded draws, parameter after parameter within the
+// remaining box, weighted with the box's probability (Geweke, Hajivassiliou, Keane).
+
+// One of the distributions.
+struct RunPiece {
+  std::vector<double> middle;
+  Matrix spread;             // its diagonal > 0
+  std::vector<RunCell> box;  // for each parameter
+  double cost = 0;           // c
+};
+
+// Returns the middle 95 % of each parameter; for a single distribution they are its middle -+
+// `width` standard deviations. If they do not contain `value`, such as a value at the end of its
+// box, they are the 95 % that reach up to it. `pieces` must not be empty.
+std::vector<RunCell> middle_of_pieces(std::span<const RunPiece> pieces,
+                                      std::span<const double> value, double width);
 
 }  // namespace sinew::identify

@@ -15,9 +15,6 @@
 // spring, which a muscle is not.
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "sinew/identify/contest/least_squares.h"
 #include "sinew/identify/motion/turns.h"
 

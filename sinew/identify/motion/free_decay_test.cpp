@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <random>
 
 #include "sinew/actuator/loss.h"
 #include "sinew/actuator/stiffness.h"

@@ -18,10 +18,7 @@
 // model.
 #pragma once
 
-#include <array>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "sinew/identify/contest/least_squares.h"

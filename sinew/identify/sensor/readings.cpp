@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/text_file.h"

@@ -10,7 +10,6 @@
 // Source: 4.4, 4.5, table 4-1 of Colbrunn, whose "% error from average" is (average - S_V)/S_V.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

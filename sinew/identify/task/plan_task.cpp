@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"

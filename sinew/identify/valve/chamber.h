@@ -15,8 +15,6 @@
 #pragma once
 
 #include <span>
-#include <string_view>
-#include <vector>
 
 #include "sinew/gas/air.h"
 #include "sinew/gas/valve.h"

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "sinew/gas/orifice.h"
 #include "sinew/identify/contest/contest.h"

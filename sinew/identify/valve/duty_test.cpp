@@ -1,6 +1,5 @@
 // Duties and predict.dat: delays from delivered duties, and tables that compensate them.
 #include <algorithm>
-#include <cmath>
 #include <random>
 
 #include "sinew/config/valve_timing.h"

@@ -1,9 +1,5 @@
 #include "sinew/identify/valve/valve.h"
 
-#include <fmt/format.h>
-
-#include <array>
-
 #include "sinew/config/write/writer.h"
 #include "sinew/gas/valve.fields.h"
 #include "sinew/identify/contest/refusal.h"
