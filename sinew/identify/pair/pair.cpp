@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <stdexcept>
@@ -422,21 +423,6 @@ class Pair {
                     fmt::format("at least {}", least), "another time to hold out");
   }
 
-  Score scored(PairProblem& problem, std::span<const double> p, std::span<const PairRecord> records,
-               const Selection& rows) const {
-    std::vector<double> r;
-    problem.residuals(p, rows, r);
-    return with_explained(r, records, rows);
-  }
-
-  Score with_explained(std::span<const double> r, std::span<const PairRecord> records,
-                       const Selection& rows) const {
-    std::vector<double> measured;
-    for (std::size_t k = 0; k < records.size(); ++k)
-      for (const std::size_t i : rows[k]) measured.push_back(records[k].effort[i]);
-    return score(r, full_scale_, measured);
-  }
-
   Candidate candidate_of(const PairLaw& law) const {
     Candidate out{.model = law.name,
                   .law = law.law,
@@ -490,29 +476,32 @@ class Pair {
       out.solution = least_squares(all);
       out.values = out.solution.values;
       out.fit.parameters = out.solution.estimates;
-      out.fit.fit = scored(problem, out.values, fitted_, rows_);
-      hold_out(law, problem, out);
-      add_residual_notes(law, problem, out);
+      score_samples(law, problem, out);
       judge(law, out.fit);
     } catch (const Refusal& e) {
       out.fit.refused = e.what();
     }
   }
 
-  // Scores times of the fitted recordings that are held out, and held-out recordings, of which only
-  // their own parameters - bias, start - are fitted.
-  void hold_out(const PairLaw& law, PairProblem& problem, Fitted& out) const {
-    std::vector<double> all, measured;
-    problem.residuals(out.values, held_out_rows_, all);
-    for (std::size_t k = 0; k < fitted_.size(); ++k)
-      for (const std::size_t i : held_out_rows_[k]) measured.push_back(fitted_[k].effort[i]);
+  // Scores the fitted samples, and with those that are held out also held-out recordings, of which
+  // only their own parameters - bias, start - are fitted.
+  void score_samples(const PairLaw& law, PairProblem& problem, Fitted& out) const {
+    Selection all;
+    for (const PairRecord& r : fitted_) all.push_back(pair_rows(r, -unbounded, unbounded, true));
+    std::vector<double>& residuals = out.fit.residuals;
+    problem.residuals(out.values, all, residuals);
     for (const PairRecord& other : others_) {
       const std::vector<double> r = residuals_of_other(law, out, other);
-      all.insert(all.end(), r.begin(), r.end());
-      measured.insert(measured.end(), other.effort.begin(), other.effort.end());
+      residuals.insert(residuals.end(), r.begin(), r.end());
     }
-    if (all.empty()) return;
-    out.fit.held_out = score(all, full_scale_, measured);
+    const Rows shown = rows();
+    std::array<std::vector<double>, 2> part, measured;  // fitted, and held out
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+      part[shown.held_out[i]].push_back(residuals[i]);
+      measured[shown.held_out[i]].push_back(shown.measured[i]);
+    }
+    out.fit.fit = score(part[0], full_scale_, measured[0]);
+    if (!part[1].empty()) out.fit.held_out = score(part[1], full_scale_, measured[1]);
   }
 
   // Returns the residuals of another recording with the identified physics and sensors of its rig.
@@ -527,16 +516,6 @@ class Pair {
     std::vector<double> r;
     problem.residuals(problem.settled(rows, known.solution), rows, r);
     return r;
-  }
-
-  void add_residual_notes(const PairLaw& law, PairProblem& problem, Fitted& out) const {
-    Selection all;
-    for (const PairRecord& r : fitted_) all.push_back(pair_rows(r, -unbounded, unbounded, true));
-    problem.residuals(out.values, all, out.fit.residuals);
-    for (const PairRecord& other : others_) {
-      const std::vector<double> r = residuals_of_other(law, out, other);
-      out.fit.residuals.insert(out.fit.residuals.end(), r.begin(), r.end());
-    }
   }
 
   // Notes implausible and undetermined parameters of the law.

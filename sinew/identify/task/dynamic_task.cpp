@@ -57,10 +57,6 @@ std::string loss_file(const config::Origins& start, const std::string& start_fil
   return actuator_file(a, provenance);
 }
 
-bool is_among(const std::vector<Source>& sources, const std::string& path) {
-  return std::ranges::find(sources, path, &Source::path) != sources.end();
-}
-
 // Averages a long recording to a hundredth of a period, as a swing is smooth.
 Measured swing_averaged(const Measured& data) {
   constexpr std::size_t most = 4000;
@@ -70,12 +66,10 @@ Measured swing_averaged(const Measured& data) {
   return times_averaged(data, most, quickest);
 }
 
-std::vector<DecayRecord> records_of(std::vector<Source> sources, const DynamicSettings& settings,
-                                    const SettingValues& values, const actuator::Actuator& a) {
-  const std::vector<Source> held_out = held_out_tables(settings.hold_out, sources, {}, true);
-  for (const Source& other : held_out)
-    if (!is_among(sources, other.path)) sources.push_back(other);
-  const double atmosphere = sources[0].atmosphere;
+std::vector<DecayRecord> records_of(const std::vector<MarkedSource>& sources,
+                                    const DynamicSettings& settings, const SettingValues& values,
+                                    const actuator::Actuator& a) {
+  const double atmosphere = sources[0].source.atmosphere;
   const std::size_t n = sources.size();
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> mass = values.each(settings.mass, n);
@@ -86,7 +80,7 @@ std::vector<DecayRecord> records_of(std::vector<Source> sources, const DynamicSe
   const std::optional<double> exponent = values.given(settings.exponent);
   std::vector<DecayRecord> out;
   for (std::size_t i = 0; i < n; ++i) {
-    DecayRecord r{.data = swing_averaged(read_measured(sources[i], decay_columns()))};
+    DecayRecord r{.data = swing_averaged(read_measured(sources[i].source, decay_columns()))};
     r.stand = {.actuator = a,
                .mass = mass[i] / settings.count,
                .pressure = pressure[i],
@@ -94,7 +88,7 @@ std::vector<DecayRecord> records_of(std::vector<Source> sources, const DynamicSe
                .polytropic_exponent = exponent.value_or(r.data.has("pressure") ? unknown : 1.4),
                .atmosphere = atmosphere,
                .gravity = units::standard_gravity};
-    r.held_out = is_among(held_out, sources[i].path);
+    r.held_out = sources[i].held_out;
     out.push_back(std::move(r));
   }
   return out;
@@ -158,12 +152,12 @@ void add_json(const DynamicResult& result, Json& out) {
 }  // namespace
 
 DynamicFound find(const SourceList& sources, const DynamicSettings& settings) {
-  if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
+  const std::vector<MarkedSource> marked = marked_tables(settings.hold_out, sources);
   const SettingValues values(settings, sources[0].atmosphere);
   const experiment::MachineFile start = experiment::load_machine_file(settings.actuator);
   const actuator::Actuator& a = config::named(start.experiment.actuators, settings.name, "name",
                                               "actuator", settings.actuator);
-  DynamicFound out(identify_dynamic(records_of(sources, settings, values, a), settings.model,
+  DynamicFound out(identify_dynamic(records_of(marked, settings, values, a), settings.model,
                                     Constraints(settings.constraints)));
   out.files = {
       file_with(loss_file(start.experiment.origins, settings.actuator, a, out.result, sources))};

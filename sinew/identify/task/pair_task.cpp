@@ -93,23 +93,18 @@ std::vector<std::string> rigs_of(const std::string& text, std::size_t tables) {
   return out;
 }
 
-std::vector<PairRecord> records_of(std::vector<Source> sources, const PairSettings& settings,
-                                   const HeldOut& others) {
-  const std::vector<Source> held_out = held_out_tables(others, sources, {}, true);
-  for (const Source& other : held_out)
-    if (std::ranges::find(sources, other.path, &Source::path) == sources.end())
-      sources.push_back(other);
+std::vector<PairRecord> records_of(const std::vector<MarkedSource>& sources,
+                                   const PairSettings& settings) {
   const std::vector<std::string> rigs = rigs_of(settings.rigs, sources.size());
   const double window = SettingValues(settings).of(settings.window);
   std::vector<PairRecord> out;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    Measured all = read_measured(sources[i], pair_columns());
+    Measured all = read_measured(sources[i].source, pair_columns());
     const std::string_view position = all.has("angle") ? "angle" : "displacement";
     if (all.has(position)) all = times_averaged(std::move(all), 20000, position);
     out.push_back(pair_record(all, window));
     out.back().rig = rigs[i];
-    out.back().held_out =
-        std::ranges::find(held_out, sources[i].path, &Source::path) != held_out.end();
+    out.back().held_out = sources[i].held_out;
   }
   return out;
 }
@@ -200,7 +195,6 @@ bool is_time_range(std::string_view text) {
 }
 
 PairFound find(const SourceList& sources, const PairSettings& settings) {
-  if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
   PairOptions options{.model = settings.model, .constraints = Constraints(settings.constraints)};
   HeldOut others{.tables = settings.hold_out.tables};
   std::string times;
@@ -215,7 +209,7 @@ PairFound find(const SourceList& sources, const PairSettings& settings) {
     }
   }
   if (!times.empty()) std::tie(options.held_out_from, options.held_out_to) = times_of(times);
-  PairFound out(identify_pair(records_of(sources, settings, others), options));
+  PairFound out(identify_pair(records_of(marked_tables(others, sources), settings), options));
   out.files = {file_of(out.result, settings.joint,
                        source_words("pair", sources, out.result.report.best().model),
                        settings.base)};

@@ -72,15 +72,39 @@ double atmosphere_setting(const std::string& text) {
                                   config::air_pressure);
 }
 
-std::vector<Source> held_out_tables(const HeldOut& hold_out, const std::vector<Source>& sources,
-                                    std::span<const std::string_view> words, bool may_be_fitted) {
+namespace {
+
+// Returns the tables that are held out, which may be sources.
+std::vector<Source> named_tables(const HeldOut& hold_out, const std::vector<Source>& sources,
+                                 std::span<const std::string_view> words) {
   std::vector<Source> out = hold_out.tables;
   for (const std::string& text : hold_out.texts) {
     if (std::ranges::find(words, text) != words.end()) continue;
-    if (!may_be_fitted) refuse_fitted(sources, "hold_out", text);
     out.push_back(sources.front());
     out.back().path = text;
     out.back().text.reset();
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Source> held_out_tables(const HeldOut& hold_out, const std::vector<Source>& sources,
+                                    std::span<const std::string_view> words) {
+  for (const std::string& text : hold_out.texts)
+    if (std::ranges::find(words, text) == words.end()) refuse_fitted(sources, "hold_out", text);
+  return named_tables(hold_out, sources, words);
+}
+
+std::vector<MarkedSource> marked_tables(const HeldOut& hold_out,
+                                        const std::vector<Source>& sources) {
+  if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
+  std::vector<MarkedSource> out;
+  for (const Source& source : sources) out.push_back({source});
+  for (const Source& other : named_tables(hold_out, sources, {})) {
+    const auto same = [&](const MarkedSource& m) { return m.source.path == other.path; };
+    if (std::ranges::none_of(out, same)) out.push_back({other});
+    for (MarkedSource& m : out) m.held_out |= same(m);
   }
   return out;
 }

@@ -33,11 +33,19 @@ struct HeldOut {
 
 // Returns the tables that are held out: those of `hold_out`, and its texts as files that are read
 // like the first source, except `words`, which are rules of the method. Throws config::Error for a
-// file that is fitted, unless `may_be_fitted`: then it is held out although it is a source.
+// file that is fitted.
 std::vector<Source> held_out_tables(const HeldOut& hold_out, const std::vector<Source>& sources,
-                                    std::span<const std::string_view> words = {},
-                                    bool may_be_fitted = false);
+                                    std::span<const std::string_view> words = {});
 
+// A table that is fitted, or held out.
+struct MarkedSource {
+  Source source;
+  bool held_out = false;
+};
+// Returns the sources, of which those that `hold_out` names are held out, and its other tables.
+// Throws config::Error if there is no source.
+std::vector<MarkedSource> marked_tables(const HeldOut& hold_out,
+                                        const std::vector<Source>& sources);
 // Returns a source like `how` for each file. Throws config::Error for a file that is given twice:
 // its rows would make every interval too narrow and invalidate hold-out tests.
 std::vector<Source> sources_of(const std::vector<std::string>& files, const Source& how);
