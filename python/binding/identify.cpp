@@ -66,9 +66,9 @@ identify::CheckInput input_of(const py::object& length, const py::object& pressu
   for (int row = 1; row <= points; ++row) table.lines.push_back(row);
   std::vector<bool> is_fitted;
   for (const double x : each(fitted, "fitted", points)) is_fitted.push_back(x != 0);
-  table = identify::each_row_once(std::move(table), is_fitted);
+  table = identify::each_row_once(std::move(table), &is_fitted);
   identify::CheckInput out{.diameter = diameter};
-  out.add({identify::settings_averaged(std::move(table), "force", is_fitted), {}});
+  out.add({identify::settings_averaged(std::move(table), "force", &is_fitted), {}});
   std::vector<identify::StaticPoint>& all = out.data.points;
   for (std::size_t i = 0; i < all.size(); ++i) all[i].fitted = is_fitted[i];
   return out;

@@ -198,12 +198,9 @@ CreepResult identify_creep(const Measured& data, host::Tally* done) {
                   fmt::format("at least {}", least_rows), "a longer hold");
   CreepResult out;
   Report& report = out.report;
-  report = {.subject = "creep from " + data.file,
-            .quantity = "force",
-            .unit = "N",
-            .full_scale = largest(data["force"]),
-            .full_scale_is = "the largest force",
-            .notes = data.notes};
+  report.set_subject("creep from " + data.file, "force", "N", "the largest force");
+  report.full_scale = largest(data["force"]);
+  report.notes = data.notes;
   const Held held = held_of(data, report);
   const bool both = vents(held.pressure);
   std::vector<Candidate> tried;

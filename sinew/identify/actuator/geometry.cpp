@@ -108,11 +108,8 @@ GeometryResult identify_geometry(const Measured& data, double thread_thickness) 
 
   GeometryResult out;
   Report& report = out.report;
-  report.subject = "braid geometry";
-  report.quantity = "diameter";
-  report.unit = "m";
+  report.set_subject("braid geometry", "diameter", "m", "the largest diameter");
   report.full_scale = largest(diameter);
-  report.full_scale_is = "the largest diameter";
   report.not_shown = {
       "how the threads stretch under load, and how thick they are between the ends"};
   fit_candidates({candidate_of(length, diameter, std::max(thread, 1.001 * largest(length)), turns)},

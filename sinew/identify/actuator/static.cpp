@@ -577,10 +577,7 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   check_model(options.model);
   StaticResult out;
   Report& report = out.report;
-  report.subject = options.subject;
-  report.quantity = "force";
-  report.unit = "N";
-  report.full_scale_is = "the largest force";
+  report.set_subject(options.subject, "force", "N", "the largest force");
   report.notes = data.notes;
   report.warnings = data.warnings;
   report.not_shown = {"how the muscle moves: losses in motion, creep and fatigue"};

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sinew/identify/contest/least_squares.h"
@@ -129,6 +130,14 @@ struct Report {
   std::vector<Further> further;        // for each muscle that can be planned
   std::vector<std::string> notes, warnings;
   std::vector<std::string> not_shown;  // not shown by such data, e.g. "how fast the valve switches"
+
+  // Sets the subject, the quantity of the residuals with its unit, and the value of 100 % in words.
+  void set_subject(std::string of, std::string what, std::string what_unit, std::string whole) {
+    subject = std::move(of);
+    quantity = std::move(what);
+    unit = std::move(what_unit);
+    full_scale_is = std::move(whole);
+  }
 
   // Returns the chosen fit.
   const Fit& best() const { return fits[chosen]; }

@@ -119,7 +119,8 @@ void average(const RowGroups& groups, Measured& data) {
 
 }  // namespace
 
-Measured settings_averaged(Measured data, std::string_view response, std::vector<bool>& kinds) {
+Measured settings_averaged(Measured data, std::string_view response, std::vector<bool>* of_rows) {
+  std::vector<bool> none, &kinds = of_rows ? *of_rows : none;
   const std::size_t rows = data.rows();
   if (data.has("time") || rows <= most_rows) return data;
   std::vector<Setting> settings;
@@ -166,11 +167,6 @@ Measured settings_averaged(Measured data, std::string_view response, std::vector
       rows, data.rows(), direction.empty() ? "" : ", rising and falling pressure apart", response,
       steps, 100 * scatter, counted));
   return data;
-}
-
-Measured settings_averaged(Measured data, std::string_view response) {
-  std::vector<bool> of_one_kind;
-  return settings_averaged(std::move(data), response, of_one_kind);
 }
 
 QuickChange quickest_change(std::span<const double> time, std::span<const double> values) {

@@ -30,11 +30,10 @@ inline constexpr std::size_t most_rows = 4000, averaged_rows = 2000;
 // columns but `response`. The grid divides the range of each column into 4096 equal steps, halved
 // until there are at most 2000 settings; in such wider cells the response follows the columns, and
 // all rows count as independent. The note also states the scatter of the response within settings.
-// Other tables are returned unchanged.
-Measured settings_averaged(Measured data, std::string_view response);
-// Averages rows of two kinds, never of both together. `kinds` is the kind of each row, on
-// return that of each average. Empty: one kind.
-Measured settings_averaged(Measured data, std::string_view response, std::vector<bool>& kinds);
+// Other tables are returned unchanged. Rows of two kinds are never averaged together: `kinds` is
+// the kind of each row, on return that of each average. Null or empty: one kind.
+Measured settings_averaged(Measured data, std::string_view response,
+                           std::vector<bool>* kinds = nullptr);
 
 // Start and duration of a change [s].
 struct QuickChange {

@@ -111,7 +111,7 @@ TEST(Averaged, RisingAndFallingPressureAreAveragedApart) {
 TEST(Averaged, RowsOfTwoKindsAreNotMixed) {
   std::vector<bool> fitted;
   for (int i = 0; i < 100000; ++i) fitted.push_back(i % 4 < 2);
-  const Measured m = settings_averaged(sweep(fitted.size()), "force", fitted);
+  const Measured m = settings_averaged(sweep(fitted.size()), "force", &fitted);
   ASSERT_EQ(m.rows(), 100u);
   ASSERT_EQ(fitted.size(), m.rows());
   for (std::size_t i = 0; i < m.rows(); ++i) EXPECT_EQ(fitted[i], i % 4 < 2);

@@ -133,8 +133,9 @@ void refuse_clipped(const Measured& data, std::string_view column, std::string_v
                 "readings within its range", std::string(try_this));
 }
 
-Measured each_row_once(Measured m, std::vector<bool>& kinds) {
+Measured each_row_once(Measured m, std::vector<bool>* of_rows) {
   if (m.has("time")) return m;
+  std::vector<bool> none, &kinds = of_rows ? *of_rows : none;
   std::vector<std::size_t> order(m.rows());
   std::iota(order.begin(), order.end(), 0);
   const auto compared = [&](std::size_t a, std::size_t b) {
@@ -160,11 +161,6 @@ Measured each_row_once(Measured m, std::vector<bool>& kinds) {
   kinds = std::move(left);
   m.notes.push_back(fmt::format("{} rows repeat earlier ones: each counts once", repeated));
   return m;
-}
-
-Measured each_row_once(Measured m) {
-  std::vector<bool> of_one_kind;
-  return each_row_once(std::move(m), of_one_kind);
 }
 
 }  // namespace sinew::identify

@@ -54,10 +54,9 @@ void refuse_constant(const Measured& data, std::string_view column, double toler
 void refuse_clipped(const Measured& data, std::string_view column, std::string_view try_this);
 
 // Returns the table without rows that repeat an earlier one in every column, with a note of their
-// number: they are no new evidence. A recording, which has a time, is returned unchanged.
-Measured each_row_once(Measured data);
-// Removes repeated rows of two kinds, for example fitted and held-out ones: a row repeats only
-// others of its kind. `kinds` is the kind of each row; entries of removed rows are removed.
-Measured each_row_once(Measured data, std::vector<bool>& kinds);
+// number: they are no new evidence. A recording, which has a time, is returned unchanged. Of rows
+// of two kinds, for example fitted and held-out ones, a row repeats only others of its kind:
+// `kinds` is the kind of each row; entries of removed rows are removed. Null or empty: one kind.
+Measured each_row_once(Measured data, std::vector<bool>* kinds = nullptr);
 
 }  // namespace sinew::identify

@@ -446,12 +446,10 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
 
   JointResult out;
   Report& report = out.report;
-  report.subject = "force law and moment arm of a joint";
-  report.quantity = "torque";
-  report.unit = "N m";
+  report.set_subject("force law and moment arm of a joint", "torque", "N m",
+                     "the largest torque of the load");
   for (const double t : joint.torque())
     report.full_scale = std::max(report.full_scale, std::abs(t));
-  report.full_scale_is = "the largest torque of the load";
   report.held_out_is = held_out       ? held_out->file
                        : setup.moving ? "the last third of each recording"
                                       : "every third row";

@@ -228,11 +228,9 @@ RunFitResult fit_run(const Experiment& e, const DrivenRun& run, const RunFitOpti
   const double until =
       fits ? options.from + (1 - options.hold_out) * (run.duration() - options.from) : -1;
   Report& report = out.report;
-  report = {.subject = fmt::format("{} from a run of {:.4g} s", e.robot.name, run.duration()),
-            .quantity = "readings",
-            .unit = "1",
-            .full_scale = 1,
-            .full_scale_is = "each sensor's noise"};
+  report.set_subject(fmt::format("{} from a run of {:.4g} s", e.robot.name, run.duration()),
+                     "readings", "1", "each sensor's noise");
+  report.full_scale = 1;
   report.not_shown = {"what this run did not excite: other speeds, loads and pressures"};
   if (options.hold_out > 0)
     report.held_out_is = fits ? fmt::format("the run from {:.4g} s on", until)

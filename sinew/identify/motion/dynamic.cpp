@@ -339,10 +339,7 @@ DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string
     throw Refusal("data", "every record held out", "one at least to fit", "");
 
   Report& report = out.report;
-  report.subject = "losses in motion";
-  report.quantity = "length";
-  report.unit = "m";
-  report.full_scale_is = "the largest first amplitude";
+  report.set_subject("losses in motion", "length", "m", "the largest first amplitude");
   report.held_out_is = held_out_is(records, marked > 0);
   report.not_shown = {"the losses at other pressures and amplitudes, and in a steady motion"};
   for (const Swing& s : swings) {

@@ -640,11 +640,9 @@ PairResult identify_pair(std::span<const PairRecord> records, const PairOptions&
 
   PairResult out{.rotary = records[0].rotary};
   Report& report = out.report;
-  report.subject = "sealed pair that is moved";
-  report.quantity = effort_of(out.rotary);
-  report.unit = out.rotary ? "N m" : "N";
+  report.set_subject("sealed pair that is moved", effort_of(out.rotary), out.rotary ? "N m" : "N",
+                     fmt::format("the largest {}", effort_of(out.rotary)));
   report.full_scale = pair.full_scale();
-  report.full_scale_is = fmt::format("the largest {}", report.quantity);
   report.held_out_is = pair.held_out_is();
   report.not_shown = {
       "the pair at other trapped pressures, and faster or slower than it was moved"};

@@ -213,10 +213,7 @@ PairAir identify_pair_air(Records records, std::span<const PairRows> fitted,
   const Selection rows(fitted.begin(), fitted.end());
   PairAir out;
   Report& report = out.report;
-  report.subject = "air trapped by the pair";
-  report.quantity = "pressure";
-  report.unit = "Pa diff";
-  report.full_scale_is = "the change of a pressure";
+  report.set_subject("air trapped by the pair", "pressure", "Pa diff", "the change of a pressure");
   for (std::size_t k = 0; k < records.size(); ++k)
     for (const std::vector<double>& p : records[k].pressure)
       report.full_scale = std::max(report.full_scale, largest(p) - smallest(p));

@@ -246,11 +246,8 @@ SensorResult calibrate(const SensorData& data, const SensorReadings& s, const Co
   const Usable u = without_ends(data, s, converter);
   refuse_poor(data, s, u);
   SensorResult r{.name = s.name, .span = largest(u.output) - smallest(u.output)};
-  r.report = {.subject = fmt::format("calibration of {}", s.name),
-              .quantity = "output",
-              .unit = "V",
-              .full_scale = r.span,
-              .full_scale_is = "its span"};
+  r.report.set_subject("calibration of " + s.name, "output", "V", "its span");
+  r.report.full_scale = r.span;
   r.report.notes = u.notes;
 
   r.report.not_shown = {"how the output changes with temperature and with time under load"};

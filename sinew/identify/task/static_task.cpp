@@ -51,8 +51,8 @@ void read_table(const StaticSettings& settings, const StaticInput& input, const 
   // A row repeats another only if both are fitted, or both are held out.
   std::vector<bool> named;
   if (input.fitted && !settings.fit_where.empty()) named = named_rows(settings, source, all);
-  all = settings_averaged(each_row_once(std::move(all), named), all.has("load") ? "load" : "force",
-                          named);
+  all = settings_averaged(each_row_once(std::move(all), &named), all.has("load") ? "load" : "force",
+                          &named);
   const std::size_t before = out.data.points.size();
   CheckedTable table{all, input};
   if (unreadable == Unreadable::is_red)

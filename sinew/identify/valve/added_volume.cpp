@@ -248,11 +248,9 @@ ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions&
   std::vector<Curve> curves;
   ValveResult out = before(options);
   Report& report = out.report;
-  report.subject =
-      fmt::format("{} fillings of a chamber with known volumes joined to it", fills.size());
-  report.quantity = "pressure";
-  report.unit = "Pa diff";
-  report.full_scale_is = "the pressure's largest range";
+  report.set_subject(
+      fmt::format("{} fillings of a chamber with known volumes joined to it", fills.size()),
+      "pressure", "Pa diff", "the pressure's largest range");
   report.held_out_is = "every second tenth of the way of each curve, by a fit to that curve alone";
   report.not_shown = {"the flow in the other direction, and how fast the valve switches"};
   report.rows = {.x = "time", .x_unit = "s", .unit = "Pa abs"};

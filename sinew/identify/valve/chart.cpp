@@ -105,11 +105,8 @@ ValveResult identify_chart(const Measured& data, const ValveOptions& options) {
   const Chart c = chart_of(data, options.air);
   ValveResult out = before(options);
   Report& report = out.report;
-  report.subject = "flow of a valve by its chart";
-  report.quantity = "mass flow";
-  report.unit = "kg/s";
+  report.set_subject("flow of a valve by its chart", "mass flow", "kg/s", "the largest flow");
   report.full_scale = largest(c.flow);
-  report.full_scale_is = "the largest flow";
   report.held_out_is = "each point by a fit of all the others";
   report.notes = data.notes;
   if (!data.has("mass_flow"))

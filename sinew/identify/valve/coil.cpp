@@ -229,12 +229,10 @@ ValveResult identify_coil(const Measured& data, const ValveOptions& options) {
   refuse_constant(data, "current", 0.0, "a current that is switched", "the columns");
   refuse_clipped(data, "current", "a larger range of the converter");
   const Pulses c = pulses_of(data, report);
-  report.subject = fmt::format("opening delay of a valve by the current of {} pulse{}", c.count,
-                               c.count == 1 ? "" : "s");
-  report.quantity = "current";
-  report.unit = "A";
+  report.set_subject(fmt::format("opening delay of a valve by the current of {} pulse{}", c.count,
+                                 c.count == 1 ? "" : "s"),
+                     "current", "A", "the largest current");
   report.full_scale = c.largest;
-  report.full_scale_is = "the largest current";
   report.held_out_is = "every second sample";
   report.not_shown = {"how the delay changes with the pressure and with the supply's voltage"};
   report.notes.insert(report.notes.end(), data.notes.begin(), data.notes.end());

@@ -143,11 +143,13 @@ ValveResult identify_duty(const Measured& data, const ValveOptions& options) {
 
   ValveResult out = before(options);
   Report& report = out.report;
-  report.subject = "delays of a valve by its map of duties";
-  report.quantity = m.flow ? "delivered flow" : "delivered duty";
-  report.unit = !m.flow ? "1" : data.has("flow") ? "m3/s" : "kg/s";
+  const std::string subject = "delays of a valve by its map of duties";
+  if (m.flow)
+    report.set_subject(subject, "delivered flow", data.has("flow") ? "m3/s" : "kg/s",
+                       "the largest flow");
+  else
+    report.set_subject(subject, "delivered duty", "1", "the whole period");
   report.full_scale = m.full;
-  report.full_scale_is = m.flow ? "the largest flow" : "the whole period";
   report.held_out_is = "each point by a fit of all the others";
   report.notes = data.notes;
   report.not_shown = {"how the delays change with the pressure and with the supply's voltage"};

@@ -175,11 +175,9 @@ ValveResult identify_fill(const Measured& data, const ValveOptions& options,
   ValveResult out = before(options);
   Report& report = out.report;
   report = fill_contest(c, options, fill_models(), other != nullptr);
-  report.subject =
-      fmt::format("{} of a chamber through a valve", c.fills() ? "filling" : "venting");
-  report.quantity = "pressure";
-  report.unit = "Pa diff";
-  report.full_scale_is = "the pressure's range";
+  report.set_subject(
+      fmt::format("{} of a chamber through a valve", c.fills() ? "filling" : "venting"), "pressure",
+      "Pa diff", "the pressure's range");
   report.not_shown = {"the flow in the other direction, and how fast the valve switches"};
   report.held_out_is = other ? other->file + ", with its own start and opening instant"
                              : "every second tenth of the way, 10 to 20 % up to 70 to 80 %";

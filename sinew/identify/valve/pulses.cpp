@@ -151,11 +151,9 @@ ValveResult identify_pulses(const Measured& data, const ValveOptions& options) {
   const Record r = record_of(data);
   ValveResult out = before(options);
   Report& report = out.report;
-  report.subject = "delays of a valve by the pressure behind it";
-  report.quantity = "pressure";
-  report.unit = "Pa diff";
+  report.set_subject("delays of a valve by the pressure behind it", "pressure", "Pa diff",
+                     "the pressure's range");
   report.full_scale = r.range();
-  report.full_scale_is = "the pressure's range";
   report.held_out_is = "the last third of the record";
   report.not_shown = {
       "how the delays change with the supply's voltage, and the flow of another chamber"};
