@@ -279,16 +279,7 @@ class Dynamic {
 DecaySummary summary_of(const Swing& swing) {
   const Oscillation& o = swing.oscillation;
   const double mass = swing.stand.mass;
-  DecaySummary out{.file = swing.file,
-                   .period = o.period,
-                   .noise = o.noise,
-                   .rest = swing.rest,
-                   .amplitude = swing.amplitude,
-                   .stiffness = swing.stiffness(),
-                   .turns = o.turns.size(),
-                   .exponent = swing.stand.polytropic_exponent,
-                   .pressure_delay = swing.pressure_delay,
-                   .all = decay_fit(o, mass)};
+  DecaySummary out{.swing = swing, .all = decay_fit(o, mass)};
   try {
     const TwoPoints p = two_points(o, swing.rest, swing.file);
     out.printed = two_point(p.x1, p.dx1, p.x2, p.dx2, mass, o.period, DecayForm::printed);

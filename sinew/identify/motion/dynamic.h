@@ -30,16 +30,12 @@
 
 namespace sinew::identify {
 
-// Results for one record from its turns, without a model of the muscle.
+// A record, with results from its turns, without a model of the muscle.
 struct DecaySummary {
-  std::string file;
-  double period = 0, noise = 0, rest = 0, amplitude = 0;  // [s] [m] [m] [m]
-  double stiffness = 0;                                   // sealed muscle at rest [N/m]
-  double friction = 0;  // at rest, by the chosen law [N]; for other laws Q times `stiffness`
-  std::size_t turns = 0;
-  double exponent = 0, pressure_delay = 0;  // trapped air [1]; NaN: pressure not used [s]
-  std::optional<Damping> printed, exact;    // two points, [45]-[53]; empty: see `why_not`
-  std::string why_not;
+  Swing swing;
+  double friction = 0;                              // at rest, by the chosen law [N]
+  std::optional<Damping> printed = {}, exact = {};  // two points, [45]-[53]; empty: see `why_not`
+  std::string why_not = "";
   DecayFit all;  // fit to all turns
 };
 

@@ -113,8 +113,8 @@ TEST(Dynamic, APressureThatComesLateIsPutRight) {
   const std::vector<double> pressure = r.data["pressure"];
   for (std::size_t i = 25; i < pressure.size(); ++i) r.data.columns[2].values[i] = pressure[i - 25];
   const DynamicResult found = identify_dynamic({&r, 1}, "secant");
-  EXPECT_NEAR(found.records[0].pressure_delay, 0.025, 2e-4);
-  EXPECT_NEAR(found.records[0].exponent, 1.4, 5e-3);
+  EXPECT_NEAR(found.records[0].swing.pressure_delay, 0.025, 2e-4);
+  EXPECT_NEAR(found.records[0].swing.stand.polytropic_exponent, 1.4, 5e-3);
   EXPECT_NEAR(found.loss.viscous, secant_loss.viscous, 0.01 * secant_loss.viscous);
 }
 

@@ -112,15 +112,15 @@ void put_methods(const DynamicFound& of, const TextOptions& how, std::string& ou
        "c [" + damping.name + "]", "zeta [53]"},
       {left, left, right, right, right, right});
   const auto row = [&](const DecaySummary& s, const char* method, const Damping& d) {
-    table.add({s.file, method, in(length, d.coulomb_length, 5),
-               in(force, d.coulomb_length * s.stiffness), in(damping, d.viscous),
+    table.add({s.swing.file, method, in(length, d.coulomb_length, 5),
+               in(force, d.coulomb_length * s.swing.stiffness()), in(damping, d.viscous),
                fmt::format("{:.4f}", d.ratio)});
   };
   for (const DecaySummary& s : found.records) {
     if (s.printed) row(s, "two points, [45] as printed", *s.printed);
     if (s.exact) row(s, "two points, exact", *s.exact);
     row(s, "all turns", s.all.damping);
-    table.add({s.file, "trajectory, " + found.report.best().model,
+    table.add({s.swing.file, "trajectory, " + found.report.best().model,
                in(length, found.loss.coulomb_length, 5), in(force, s.friction),
                in(damping, found.loss.viscous), ""});
   }
@@ -131,16 +131,17 @@ void put_methods(const DynamicFound& of, const TextOptions& how, std::string& ou
 
 void add_json(const DynamicResult& result, Json& out) {
   for (const DecaySummary& s : result.records) {
-    Json r{{"file", s.file},
-           {"turns", s.turns},
-           {"period_s", s.period},
-           {"noise_m", s.noise},
-           {"rest_length_m", s.rest},
-           {"first_amplitude_m", s.amplitude},
-           {"sealed_stiffness_N_per_m", s.stiffness},
+    const Swing& swing = s.swing;
+    Json r{{"file", swing.file},
+           {"turns", swing.oscillation.turns.size()},
+           {"period_s", swing.oscillation.period},
+           {"noise_m", swing.oscillation.noise},
+           {"rest_length_m", swing.rest},
+           {"first_amplitude_m", swing.amplitude},
+           {"sealed_stiffness_N_per_m", swing.stiffness()},
            {"friction_at_rest_N", s.friction},
-           {"exponent", s.exponent}};
-    if (std::isfinite(s.pressure_delay)) r["pressure_delay_s"] = s.pressure_delay;
+           {"exponent", swing.stand.polytropic_exponent}};
+    if (std::isfinite(swing.pressure_delay)) r["pressure_delay_s"] = swing.pressure_delay;
     if (s.printed) r["two_point_printed"] = describe(*s.printed);
     if (s.exact) r["two_point_exact"] = describe(*s.exact);
     if (!s.exact) r["two_point_refused"] = s.why_not;
