@@ -91,7 +91,7 @@ py::dict identify_columns(const std::string& method) {
   py::dict out;
   for (const identify::MethodInputs& inputs : identify::method_inputs())
     if (inputs.method == method && method != "sensor")
-      for (const identify::ColumnSpec& spec : inputs.columns())
+      for (const identify::ColumnSpec& spec : inputs.columns)
         out[py::str(std::string(spec.name))] = std::string(spec.unit);
   return out;
 }

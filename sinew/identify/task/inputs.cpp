@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
@@ -25,17 +26,6 @@
 namespace sinew::identify {
 
 namespace {
-
-template <std::span<const ColumnSpec> (*columns)()>
-std::vector<ColumnSpec> columns_in() {
-  const std::span<const ColumnSpec> all = columns();
-  return {all.begin(), all.end()};
-}
-
-std::vector<ColumnSpec> columns_of_joint() {
-  const auto all = joint_columns(true);
-  return {all.begin(), all.end()};
-}
 
 constexpr std::array point_tables{
     TableKind{"points", "a muscle at rest: held at a length, filled to a pressure",
@@ -117,47 +107,35 @@ constexpr std::string_view advice_of_time =
 
 // --- one row per method ---
 
+MethodInputs row(std::string_view method, std::span<const ColumnSpec> columns,
+                 std::span<const TableKind> kinds, std::vector<std::string_view> advice) {
+  return {method, {columns.begin(), columns.end()}, kinds, std::move(advice)};
+}
+
 const std::array all_inputs{
-    MethodInputs{"geometry",
-                 columns_in<geometry_columns>,
-                 mesh_tables,
-                 {"Counted trapezoids need no table: trapezoids=37,16."}},
-    MethodInputs{"sensor",
-                 sensor_columns,
-                 calibration_tables,
-                 {"One known column; every other column in V or count is a sensor."}},
-    MethodInputs{"dynamic",
-                 columns_in<decay_columns>,
-                 swing_tables,
-                 {"Without a column pressure, give pressure=\"60 psi gauge\"."}},
-    MethodInputs{"joint",
-                 columns_of_joint,
-                 pose_tables,
-                 {"Where one load hangs all the time, give load=\"1 kg\"."}},
-    MethodInputs{"pair",
-                 columns_in<pair_columns>,
-                 pair_tables,
-                 {"A recording has at least 100 samples, which follow each other."}},
-    MethodInputs{"valve",
-                 columns_in<valve_columns>,
-                 valve_tables,
-                 {"Rows of several valves in one table: where=\"valve=inlet\" takes those of one.",
-                  "added_volume is the same in all rows of a file: two fillings with different "
-                  "ones separate conductance and volume."}},
-    MethodInputs{"static",
-                 columns_in<static_columns>,
-                 point_tables,
-                 {advice_of_length, advice_of_rest, advice_of_time}},
-    MethodInputs{"creep", columns_in<creep_columns>, hold_tables, {}},
-    MethodInputs{"check",
-                 columns_in<static_columns>,
-                 point_tables,
-                 {advice_of_length, advice_of_rest, advice_of_time}},
-    MethodInputs{"plan",
-                 columns_in<static_columns>,
-                 point_tables,
-                 {"A table is not needed: with one, the plan is what to measure next.",
-                  advice_of_length, advice_of_rest, advice_of_time}}};
+    row("geometry", geometry_columns(), mesh_tables,
+        {"Counted trapezoids need no table: trapezoids=37,16."}),
+    row("sensor", sensor_columns(), calibration_tables,
+        {"One known column; every other column in V or count is a sensor."}),
+    row("dynamic", decay_columns(), swing_tables,
+        {"Without a column pressure, give pressure=\"60 psi gauge\"."}),
+    row("joint", joint_columns(true), pose_tables,
+        {"Where one load hangs all the time, give load=\"1 kg\"."}),
+    row("pair", pair_columns(), pair_tables,
+        {"A recording has at least 100 samples, which follow each other."}),
+    row("valve", valve_columns(), valve_tables,
+        {"Rows of several valves in one table: where=\"valve=inlet\" takes those of one.",
+         "added_volume is the same in all rows of a file: two fillings with different ones "
+         "separate "
+         "conductance and volume."}),
+    row("static", static_columns(), point_tables,
+        {advice_of_length, advice_of_rest, advice_of_time}),
+    row("creep", creep_columns(), hold_tables, {}),
+    row("check", static_columns(), point_tables,
+        {advice_of_length, advice_of_rest, advice_of_time}),
+    row("plan", static_columns(), point_tables,
+        {"A table is not needed: with one, the plan is what to measure next.", advice_of_length,
+         advice_of_rest, advice_of_time})};
 
 // --- text output ---
 
@@ -292,7 +270,7 @@ std::string need_of(const MethodInputs& inputs, std::string_view column) {
 Json to_json(const MethodInputs& inputs) {
   Json out{{"format", "sinew.columns/1"}, {"method", inputs.method}};
   out["columns"] = Json::array();
-  for (const ColumnSpec& w : inputs.columns()) out["columns"].push_back(json_of_column(inputs, w));
+  for (const ColumnSpec& w : inputs.columns) out["columns"].push_back(json_of_column(inputs, w));
   for (const TableKind& kind : inputs.kinds) {
     Json one{{"row", kind.row}};
     if (!kind.name.empty()) one["name"] = kind.name;
@@ -311,7 +289,7 @@ std::string template_of(const MethodInputs& inputs, std::string_view kind_name) 
       "# For `sinew identify {}`. A row is {}.\n"
       "# Units may be changed here; the rows are examples: put yours in their place.\n",
       inputs.method, kind.row);
-  const std::vector<ColumnSpec> columns = inputs.columns();
+  const std::vector<ColumnSpec>& columns = inputs.columns;
   for (const std::string& heading : config::at_commas(std::string(kind.header))) {
     const std::string name = name_in_heading(heading);
     const auto spec = std::ranges::find(columns, name, &ColumnSpec::name);
@@ -349,7 +327,7 @@ std::string units_of(const ColumnSpec& column) {
 std::string text_of(const MethodInputs& inputs) {
   report::TextTable table({"column", "quantity", "needed", "units", "meaning"},
                           std::vector(5, report::TextTable::Align::left));
-  for (const ColumnSpec& w : inputs.columns())
+  for (const ColumnSpec& w : inputs.columns)
     table.add({std::string(w.name), quantity_of(w), need_of(inputs, w.name), units_of(w),
                std::string(w.doc)});
   std::string out = table.text() + "\n";

@@ -28,7 +28,7 @@ struct TableKind {
 // Inputs of one method.
 struct MethodInputs {
   std::string_view method;               // e.g. "static"
-  std::vector<ColumnSpec> (*columns)();  // all columns that it reads
+  std::vector<ColumnSpec> columns;       // all columns that it reads
   std::span<const TableKind> kinds;      // the most common one first
   std::vector<std::string_view> advice;  // further requirements, in sentences
 };

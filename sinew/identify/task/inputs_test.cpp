@@ -31,7 +31,7 @@ bool contains(const Json& list, const std::string& text) {
 std::size_t rows_read(const MethodInputs& inputs, const TableKind& kind, const std::string& text) {
   const Source source{.path = "template.csv", .text = text};
   if (inputs.method == "sensor") return read_sensor_data(source, {}).known.size();
-  const std::vector<ColumnSpec> columns = inputs.columns();
+  const std::vector<ColumnSpec> columns = inputs.columns;
   const Measured data = read_measured(source, columns);
   StaticData points;
   const bool of_points =
@@ -104,7 +104,7 @@ TEST(Inputs, WithoutAColumnThatIsNeededAMethodDoesNotReadItsTable) {
 TEST(Inputs, EveryColumnOfATemplateIsOneThatTheMethodWants) {
   for (const MethodInputs& inputs : method_inputs()) {
     if (inputs.method == "sensor") continue;  // its column names are free
-    const std::vector<ColumnSpec> columns = inputs.columns();
+    const std::vector<ColumnSpec> columns = inputs.columns;
     for (const TableKind& kind : inputs.kinds)
       for (const std::string& heading : config::at_commas(std::string(kind.header)))
         EXPECT_TRUE(std::ranges::any_of(
@@ -117,7 +117,7 @@ TEST(Inputs, EveryColumnOfATemplateIsOneThatTheMethodWants) {
 // Every listed unit is accepted.
 TEST(Inputs, AcceptedUnitsConvert) {
   for (const MethodInputs& inputs : method_inputs())
-    for (const ColumnSpec& w : inputs.columns()) {
+    for (const ColumnSpec& w : inputs.columns) {
       const std::vector<std::string> accepted = accepted_units(w);
       EXPECT_EQ(accepted.empty(), !w.words.empty()) << w.name;
       for (const std::string& unit : accepted)
@@ -136,7 +136,7 @@ TEST(Inputs, ReportWhatIsNeededAndWhatFor) {
   EXPECT_EQ(need_of(inputs_of("valve"), "flow"),
             "required for chart, or mass_flow; for duty, or delivered or mass_flow");
   for (const MethodInputs& inputs : method_inputs())
-    for (const ColumnSpec& w : inputs.columns()) {
+    for (const ColumnSpec& w : inputs.columns) {
       EXPECT_FALSE(w.doc.empty()) << inputs.method << " " << w.name;
       if (!w.optional && inputs.method != "sensor") {
         EXPECT_TRUE(says(need_of(inputs, w.name), "required")) << inputs.method << w.name;
