@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# fine.sh [FOLDER [PLAN...]]   repeats maps of this folder with more points than the tables of docs/evidence/studies have: the first six
-# with a hundred times as many, those with a search with ten times. FOLDER/PLAN.csv, by default in build/fine; ten minutes of a
-# processor. studies/fine.gp plots them as docs/pictures/maps.png and largest-gains.png.
+# fine.sh [FOLDER [PLAN...]]   repeats maps of this folder with a hundred times as many points as the tables of docs/evidence/studies
+# have: FOLDER/PLAN.csv, by default in build/fine. The last four search for a gain at each point and take most of the hour that a
+# processor needs. studies/fine.gp plots them as docs/pictures/maps.png and largest-gains.png.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 sinew=${SINEW:-build/release/bin/sinew} folder=${1:-build/fine}
@@ -28,8 +28,8 @@ table-height-felt|vary = ["ground.height=-14.5:-12.5:900 in"]
 velocity-gain|range = ["control.gains.hip.velocity=0.001:1 % s/count log"]\nsample = "latin"\npoints = 900
 payload|vary = ["trolley.payload=0:40:600 lb"]
 repeat-damping|vary = ["joint.hip.damping=0.2:2.07:50 lbf in s/rad", "joint.knee.damping=0.2:2.07:50 lbf in s/rad"]
-gain-stiffness|vary = ["control.stiffness.hip=5:75:150 lbf in/rad"]
-gain-stiffness-gain|vary = ["joint.hip.stiffness_gain=0:13:90 %/(lbf in/rad)"]
-gain-duration|vary = ["phase.swing.duration=0.5:3:70 s"]
-gain-inertia|vary = ["link.femur.inertia=10.36:300:80 lb in2"]
+gain-stiffness|vary = ["control.stiffness.hip=5:75:1500 lbf in/rad"]
+gain-stiffness-gain|vary = ["joint.hip.stiffness_gain=0:13:900 %/(lbf in/rad)"]
+gain-duration|vary = ["phase.swing.duration=0.5:3:700 s"]
+gain-inertia|vary = ["link.femur.inertia=10.36:300:800 lb in2"]
 END
