@@ -55,8 +55,8 @@ class BodiesOfAir : public ValveBank<Most> {
   // Selects a table for densities outside the series' range, for steps that often leave that range.
   void use_power_table() { braids_.use_power_table(); }
 
-  // plain() returns whether the machine has only muscles between valves on a constant supply.
-  // stays_plain() also excludes later faults and valves that open gradually: plain_air.h
+  // plain() returns whether the machine has only muscles between narrow valves on a constant
+  // supply. stays_plain() also excludes later faults and valves that open gradually: plain_air.h
   // integrates such machines in lanes, with the values below.
   bool plain() const noexcept { return plain_; }
   bool stays_plain() const noexcept { return plain_ && !ramping_ && faults_.empty(); }
@@ -137,7 +137,7 @@ class BodiesOfAir : public ValveBank<Most> {
   // Returns the longest step for which RK4 is stable: by the fastest chamber, lag or wall that an
   // option adds, or infinity [s]. The first overload holds for every position of the piston. The
   // second is for given positions and includes muscles that never seal (behind a regulator or a
-  // hose's chamber, or with a leak), but not muscles behind shutters.
+  // hose's chamber, or with a leak) or whose wide valve is open.
   double longest_step() const noexcept;
   double longest_step(const Ends& ends, const Valves& valves) const noexcept;
 
@@ -164,12 +164,13 @@ class BodiesOfAir : public ValveBank<Most> {
   // state.
   struct AirLine {
     int energy = none, hose = none, hose_energy = none;  // a hose without volume has no mass
-    bool has_hose = false, has_options = false;          // it has a hose; it has more than valves
+    bool has_hose = false, has_options = false;  // it has a hose; it has more than narrow valves
     gas::HoseConstants hose_flow;
     gas::LeakConstants leak;
     bool plays = false;                                          // has hysteresis
     std::array<int, actuator::Creep::most> late = {none, none};  // states of the creep
     double settling = 0;  // n R T times the slope of the flow that never shuts, else 0 [m^3/s]
+    std::array<double, 2> by_valve{};  // n R T times the slope of a wide inlet, exhaust, else 0
   };
   struct Slot {
     int mass = none, energy = none;
@@ -184,13 +185,24 @@ class BodiesOfAir : public ValveBank<Most> {
     bool cut = false;  // a fault has cut it from its tank
   };
 
-  // Builds the bodies of a machine, with its list of faults.
+  // Builds the bodies of a machine, with its list of faults, for steps of the body of at most
+  // `step` [s].
   BodiesOfAir(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
-              const std::optional<Cylinder>& cylinder, std::span<const AirFault> faults);
+              const std::optional<Cylinder>& cylinder, std::span<const AirFault> faults,
+              double step);
 
   // Return a muscle, and its line.
   const Muscle& muscle(int i) const noexcept { return muscles_[static_cast<std::size_t>(i)]; }
   const AirLine& line(int i) const noexcept { return lines_[static_cast<std::size_t>(i)]; }
+
+  // Returns n R T times the slope of the wide valves of muscle i that are open [m^3/s].
+  double settling_of_open(int i, const Valves& valves) const noexcept {
+    double sum = 0;
+    for (std::size_t v = 0; v < 2; ++v)
+      if (ramping_ || valves[2 * static_cast<std::size_t>(i) + v].share > 0)
+        sum += line(i).by_valve[v];
+    return sum;
+  }
 
   // Calls visit(i) for the muscles whose lines are evaluated one by one: those with more than
   // valves, and all of them while something is broken.
@@ -232,6 +244,7 @@ class BodiesOfAir : public ValveBank<Most> {
   void classify();
   void limit_step();
   double fastest_slope(int inlet) const;
+  void find_wide_valves(int i, double step);
   double hose_slope(const AirLine& line) const;
   bool is_always_quick(int i) const;
   double density(double pressure) const noexcept;
@@ -242,7 +255,7 @@ class BodiesOfAir : public ValveBank<Most> {
 template <int Most>
 BodiesOfAir<Most>::BodiesOfAir(std::span<const Muscle> muscles, const gas::Air& air,
                                const gas::Supply& supply, const std::optional<Cylinder>& cylinder,
-                               std::span<const AirFault> faults)
+                               std::span<const AirFault> faults, double step)
     : ValveBank<Most>(air, faults),
       size_(static_cast<int>(muscles.size())),
       supply_(supply),
@@ -266,6 +279,9 @@ BodiesOfAir<Most>::BodiesOfAir(std::span<const Muscle> muscles, const gas::Air& 
       lagging_.push_back(static_cast<int>(&tap - taps_.data()));
       tap.outlet = others_++;
     }
+  const double exponent = air_.wall_time > 0 ? gas::heat_capacity_ratio : air_.polytropic_exponent;
+  spring_ = exponent * air_.gas_constant * air_.temperature;
+  for (int i = 0; i < size_; ++i) find_wide_valves(i, step);
   if (supply_.kind == gas::Supply::Kind::tank) tank_ = others_++;
   for (int i = 0; i < size_; ++i) add_memory(i);
   const auto fails = [](const AirFault& f) { return f.what == AirFault::What::supply; };
@@ -289,6 +305,31 @@ void BodiesOfAir<Most>::add_muscle(const Muscle& m) {
   line.has_options =
       line.has_hose || !line.leak.tight() || regulates(m.inlet) || air_.wall_time > 0;
   lines_.push_back(line);
+}
+
+// Notes the slopes of the on/off valves of muscle i if one of them is wide: if the muscle at the
+// length of its straight thread settles too quickly for RK4 in steps of the body where its
+// pressure is still a hundredth from that behind the valve. A narrower valve is too quick only
+// where the rest is less than that.
+template <int Most>
+void BodiesOfAir<Most>::find_wide_valves(int i, double step) {
+  constexpr double rest = 0.01;  // difference of the pressures, over the larger one
+  AirLine& l = lines_[static_cast<std::size_t>(i)];
+  const auto inlet = static_cast<std::size_t>(2 * i);
+  if (l.has_hose || regulates(taps_[inlet].valve)) return;
+  const double least = volume(i, muscle(i).actuator.long_end.length);
+  const double near = gas::y_of(air_, (1.0 - rest) * air_.atmosphere);
+  bool wide = false;
+  std::array<double, 2> rates{};
+  for (std::size_t v = 0; v < 2; ++v) {
+    const gas::FlowConstants& flow = taps_[inlet + v].flow;
+    rates[v] = spring_ * flow.linear_gain / air_.atmosphere;
+    const double slope = gas::flow_y(flow, 1.0, near) / (rest * air_.atmosphere);
+    wide = wide || spring_ * slope * step > quick::from_rate * least;
+  }
+  if (!wide) return;
+  l.by_valve = rates;
+  l.has_options = settles_ = true;
 }
 
 // Allocates the states of hysteresis and creep of muscle i.
@@ -377,8 +418,6 @@ void BodiesOfAir<Most>::limit_step() {
     for (std::size_t k = 0; k < m.actuator.creep.share.size(); ++k)
       if (m.actuator.creep.share[k] != 0) faster(1.0 / m.actuator.creep.time[k]);
   lag_rate_ = rate;
-  const double exponent = air_.wall_time > 0 ? gas::heat_capacity_ratio : air_.polytropic_exponent;
-  spring_ = exponent * air_.gas_constant * air_.temperature;
   for (int i = 0; i < size_; ++i) {
     AirLine& l = lines_[static_cast<std::size_t>(i)];
     double slope = (l.leak.hole.linear_gain + l.leak.slope) / air_.atmosphere;
@@ -425,7 +464,7 @@ double BodiesOfAir<Most>::longest_step(const Ends& ends, const Valves& valves) c
   if (plain_ && !valves.leaking) return never;
   double fastest = 0;
   for (int i = 0; i < size_ && (settles_ || valves.leaking); ++i) {
-    double one = line(i).settling / volume(i, ends.length[i]);
+    double one = (line(i).settling + settling_of_open(i, valves)) / volume(i, ends.length[i]);
     if (valves.leaking) {
       const double broken = spring_ * slope_of_faults(i, valves.faults);
       one += broken / volume(i, ends.length[i]);

@@ -54,10 +54,11 @@ class AirNetwork : public QuickBodies<Most> {
       typename Quick::Lanes, typename Quick::Memory, typename Quick::State, typename Quick::Valves;
 
   // Throws std::invalid_argument for more than `Most` muscles, and for a cylinder with valves whose
-  // chambers vanish at a stop.
+  // chambers vanish at a stop. `step` is the longest one of the body [s].
   AirNetwork(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
-             const std::optional<Cylinder>& cylinder = {}, std::span<const AirFault> faults = {})
-      : Quick(muscles, air, supply, cylinder, faults) {}
+             const std::optional<Cylinder>& cylinder = {}, std::span<const AirFault> faults = {},
+             double step = 1e-3)
+      : Quick(muscles, air, supply, cylinder, faults, step) {}
 
   // Applies an electrical edge of a valve at t, or a regulator's set point from t on; t is not
   // before the last node. `at_node`: the evaluation at that node, for delays and failures that

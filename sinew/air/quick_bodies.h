@@ -1,7 +1,7 @@
 // air/quick_bodies.h - bodies of air that are quicker than a step of the body.
 //
-// A hose's small volume settles within 0.1 ms, a muscle behind a wide regulator or with a burst
-// wall within less. RK4 of the whole machine would have to take such steps. Instead such a body of
+// A hose's small volume settles within 0.1 ms, a muscle behind a wide valve or with a burst wall
+// within less. RK4 of the whole machine would have to take such steps. Instead such a body of
 // air, or two in series (hose and muscle), is integrated ahead through the step on its own by the
 // linearly implicit RODAS3 (stiff/quick.h), with steps chosen by its error. The body's RK4 stages
 // then use its masses at the half and at the end.
@@ -95,7 +95,7 @@ bool QuickBodies<Most>::is_quick(int cell, double h, const Ends& ends,
          capacity = 0;
   if (cell < size_) {
     if (line(cell).has_hose || (valves.broken && blocked(cell, valves))) return false;
-    slope += line(cell).settling;
+    slope += line(cell).settling + Bodies::settling_of_open(cell, valves);
     if (!(slope > 0)) return false;
     capacity = volume(cell, ends.length[cell]);
   } else {

@@ -52,8 +52,17 @@ std::vector<Case> cases() {
       one.inlet.flow.area = 3e-5;
     }
   };
+  const auto wide = [](double area, gas::Valve::Kind kind) {
+    return [=](std::vector<Muscle>& m) {
+      for (Muscle& one : m) {
+        one.inlet.kind = kind;
+        one.inlet.flow.area = one.exhaust.flow.area = area;
+      }
+    };
+  };
+  using Kind = gas::Valve::Kind;
   const AirFault hole{.what = AirFault::What::hole, .begin = 0.05, .leak = {.area = 2e-5}};
-  // Measured: 4.2e-4, 4.9e-4, 3.6e-4, 4.2e-4, 2.0e-4, 2.0e-5, 1.7e-4.
+  // Measured: 4.2e-4, 4.9e-4, 3.6e-4, 4.2e-4, 2.0e-4, 9.5e-5, 1.1e-4, 4.7e-5, 2.0e-5, 1.7e-4.
   // With twelve other drives at most 5.6e-4, 6.9e-4 (once, with another, 1.1e-3), 3.6e-4, 6.3e-4,
   // 2.0e-4, 4.4e-4 and, of the cylinder alone, 1.2e-3.
   return {{"pipes", hose(pipe), {}, {}, 1e-3},
@@ -61,6 +70,9 @@ std::vector<Case> cases() {
           {"tiny_hoses", hose(iso_hose(6e-9, 2e-8)), {}, {}, 1e-3},
           {"leaking_hoses", leaking, {}, {}, 1e-3},
           {"regulators", regulators, {}, {}, 1e-3},
+          {"wide_valves", wide(2e-5, Kind::two_way), {}, {}, 1e-3},
+          {"very_wide_valves", wide(1e-4, Kind::two_way), {}, {}, 1e-3},
+          {"wide_3_way_valves", wide(5e-5, Kind::three_way), {}, {}, 1e-3},
           {"rupture", [](std::vector<Muscle>&) {}, {hole}, {}, 1e-3},
           {"cylinder", [](std::vector<Muscle>&) {}, {}, thesis_cylinder(), 1e-3}};
 }

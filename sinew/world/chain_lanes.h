@@ -90,7 +90,7 @@ template <int N>
 bool is_plain_chain(const Setup& setup) {
   if (!robot::is_chain(setup.robot) || setup.robot.joints.size() != N) return false;
   const air::AirNetwork<chain_muscles> air(setup.muscles, setup.air, setup.supply, setup.cylinder,
-                                           setup.faults);
+                                           setup.faults, setup.steps.body);
   return air.stays_plain();
 }
 

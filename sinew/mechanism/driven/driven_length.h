@@ -74,7 +74,7 @@ class DrivenLength {
   double node_step(const Setup& setup) const noexcept { return setup.step; }
   template <class Air>
   Air make_air(const Setup& s) const {
-    return Air(std::span(&s.muscle, 1), s.air, s.supply);
+    return Air(std::span(&s.muscle, 1), s.air, s.supply, {}, {}, s.step);
   }
   auto start_air(const auto& air, const Setup& s, const Ends& ends) const {
     return air.initial(s.pressure, ends.length, 0);

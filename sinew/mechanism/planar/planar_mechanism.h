@@ -145,7 +145,7 @@ struct PlanarMechanism {
   // Return the air of a machine, air/network.h, and its state and memory at the start.
   template <class Air>
   static Air make_air(const Setup& s) {
-    return Air(s.muscles, s.air, s.supply, s.cylinder, s.faults);
+    return Air(s.muscles, s.air, s.supply, s.cylinder, s.faults, s.steps.body);
   }
   template <class Air>
   static auto start_air(const Air& air, const Setup& s, const Ends& ends) {

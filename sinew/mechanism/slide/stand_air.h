@@ -24,10 +24,11 @@ struct StandEnds : ElementAir::Ends {
   double pressure = 0;  // absolute; 0: not prescribed [Pa]
 };
 
-// Returns the network of the stand's element.
+// Returns the network of the stand's element. No valve is wide (bodies.h) for a step of 0: a stand
+// divides its steps itself.
 inline ElementAir air_of(const StandSetup& s) {
-  if (s.cylinder) return {{}, s.air, s.supply, s.cylinder, s.faults};
-  return {std::span(&s.muscle, 1), s.air, s.supply, {}, s.faults};
+  if (s.cylinder) return {{}, s.air, s.supply, s.cylinder, s.faults, 0.0};
+  return {std::span(&s.muscle, 1), s.air, s.supply, {}, s.faults, 0.0};
 }
 
 class StandAir : public ElementAir {
