@@ -81,6 +81,7 @@ class RowRuns {
   std::map<std::size_t, std::shared_future<std::filesystem::path>> runs_;
 };
 
+// The page of a study, or of two, in a browser: the rows that each request finds in the files.
 class StudyPages {
  public:
   // Serves one file or two. Throws as tune::study_view() does, and std::runtime_error if the
@@ -115,6 +116,7 @@ class StudyPages {
 // address. The file is removed by the destructor.
 class Browser {
  public:
+  // Opens the address.
   explicit Browser(const std::string& url);
   ~Browser();
   Browser(const Browser&) = delete;

@@ -21,7 +21,7 @@ struct Curve {
   bool opening_seen = false;           // the record begins before the opening
   bool settled = true;                 // nearly constant at its end
   double rate = 0;                     // dP/dt between 15 and 50 % of the change [Pa/s]
-  std::vector<std::string> notes;
+  std::vector<std::string> notes;      // remarks on its preparation, for the report
 
   // Return whether the pressure rises, its change [Pa], and the share of the change at a pressure.
   bool fills() const { return end > start; }

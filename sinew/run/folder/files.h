@@ -54,6 +54,7 @@ void make_folders(const std::filesystem::path& folder);
 // Returns the names of the files and folders in a folder, sorted. Throws config::Error.
 std::vector<std::string> names_in(const std::filesystem::path& folder);
 
+// A folder for results, locked while this object exists.
 class OutputFolder {
  public:
   // Creates the folder if it is missing, and locks it for the lifetime of this object. Throws

@@ -50,13 +50,14 @@ struct Limit {
   double si = 0;     // `limit` in SI
 };
 
+// Goals and limits that order the candidates.
 struct Goals {
   // mean: weighted mean of the runs; worst: the worst run.
   enum class Over { mean, worst };
 
-  std::vector<Goal> goals;
-  std::vector<Limit> limits;
-  Over over = Over::mean;
+  std::vector<Goal> goals;    // at least one
+  std::vector<Limit> limits;  // that the runs must hold
+  Over over = Over::mean;     // how the runs of a candidate are combined
   double hold = 1;  // share of the runs for which all limits must hold, above 0, at most 1
 };
 
