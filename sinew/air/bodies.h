@@ -170,7 +170,8 @@ class BodiesOfAir : public ValveBank<Most> {
     bool plays = false;                                          // has hysteresis
     std::array<int, actuator::Creep::most> late = {none, none};  // states of the creep
     double settling = 0;  // n R T times the slope of the flow that never shuts, else 0 [m^3/s]
-    std::array<double, 2> by_valve{};  // n R T times the slope of a wide inlet, exhaust, else 0
+    std::array<double, 2> by_valve{};  // n R T times the slope of a wide inlet, exhaust, else 0;
+                                       // with a hose without volume, of both in series
   };
   struct Slot {
     int mass = none, energy = none;
@@ -244,6 +245,7 @@ class BodiesOfAir : public ValveBank<Most> {
   void classify();
   void limit_step();
   double fastest_slope(int inlet) const;
+  double steepest(const gas::FlowConstants& flow) const;
   void find_wide_valves(int i, double step);
   double hose_slope(const AirLine& line) const;
   bool is_always_quick(int i) const;
@@ -307,25 +309,40 @@ void BodiesOfAir<Most>::add_muscle(const Muscle& m) {
   lines_.push_back(line);
 }
 
-// Notes the slopes of the on/off valves of muscle i if one of them is wide: if the muscle at the
-// length of its straight thread settles too quickly for RK4 in steps of the body where its
-// pressure is still a hundredth from that behind the valve. A narrower valve is too quick only
-// where the rest is less than that.
+// Returns the slope of a flow over the pressure where the pressures are nearly equal [kg/(s Pa)]. A
+// law without a linear part is infinitely steep there: it has the slope of a thousandth.
+template <int Most>
+double BodiesOfAir<Most>::steepest(const gas::FlowConstants& flow) const {
+  if (flow.linear_gain > 0) return flow.linear_gain / air_.atmosphere;
+  constexpr double rest = 1e-3;
+  return gas::flow_y(flow, 1.0, gas::y_of(air_, (1.0 - rest) * air_.atmosphere)) /
+         (rest * air_.atmosphere);
+}
+
+// Notes the slopes of the on/off valves of muscle i if one of them is wide: if the muscle at
+// `long_end.length` settles too quickly for RK4 in steps of the body where its pressure is still a
+// hundredth from that behind the valve. A narrower valve is too quick only where the rest is less
+// than that. A hose without volume is in series with the valve.
 template <int Most>
 void BodiesOfAir<Most>::find_wide_valves(int i, double step) {
   constexpr double rest = 0.01;  // difference of the pressures, over the larger one
   AirLine& l = lines_[static_cast<std::size_t>(i)];
   const auto inlet = static_cast<std::size_t>(2 * i);
-  if (l.has_hose || regulates(taps_[inlet].valve)) return;
+  if (l.hose != none || regulates(taps_[inlet].valve)) return;
   const double least = volume(i, muscle(i).actuator.long_end.length);
   const double near = gas::y_of(air_, (1.0 - rest) * air_.atmosphere);
+  const double hose = l.has_hose ? gas::hose_flow_y(l.hose_flow, 1.0, near) : 0.0;  // [kg/s]
   bool wide = false;
   std::array<double, 2> rates{};
   for (std::size_t v = 0; v < 2; ++v) {
     const gas::FlowConstants& flow = taps_[inlet + v].flow;
-    rates[v] = spring_ * flow.linear_gain / air_.atmosphere;
-    const double slope = gas::flow_y(flow, 1.0, near) / (rest * air_.atmosphere);
-    wide = wide || spring_ * slope * step > quick::from_rate * least;
+    double slope = steepest(flow), through = gas::flow_y(flow, 1.0, near);
+    if (hose > 0 && through > 0) {
+      slope = 1.0 / (1.0 / slope + 1.0 / hose_slope(l));
+      through *= hose / std::hypot(through, hose);
+    }
+    rates[v] = spring_ * slope;
+    wide = wide || spring_ * through * step > quick::from_rate * least * rest * air_.atmosphere;
   }
   if (!wide) return;
   l.by_valve = rates;
@@ -397,7 +414,7 @@ double BodiesOfAir<Most>::volume(int i, double length) const noexcept {
 template <int Most>
 double BodiesOfAir<Most>::fastest_slope(int inlet) const {
   const auto v = static_cast<std::size_t>(inlet);
-  return (taps_[v].flow.linear_gain + taps_[v + 1].flow.linear_gain) / air_.atmosphere;
+  return steepest(taps_[v].flow) + steepest(taps_[v + 1].flow);
 }
 
 // Returns the slope of the flow through a hose  [kg/(s Pa)].
@@ -492,7 +509,7 @@ double BodiesOfAir<Most>::longest_step_of_rest(const Ends& ends,
   if (air_.wall_time > 0) return longest_step(ends, valves);
   double fastest = lag_rate_;
   for (int i = 0; i < size_ && (settles_ || valves.leaking); ++i) {
-    const bool held_back = line(i).hose == none && (line(i).has_hose || blocked(i, valves));
+    const bool held_back = line(i).hose == none && blocked(i, valves);
     if (!held_back) continue;
     const double slope = line(i).settling + spring_ * slope_of_faults(i, valves.faults);
     fastest = std::max(fastest, slope / volume(i, ends.length[i]));

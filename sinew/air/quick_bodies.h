@@ -1,10 +1,10 @@
 // air/quick_bodies.h - bodies of air that are quicker than a step of the body.
 //
-// A hose's small volume settles within 0.1 ms, a muscle behind a wide valve or with a burst wall
-// within less. RK4 of the whole machine would have to take such steps. Instead such a body of
-// air, or two in series (hose and muscle), is integrated ahead through the step on its own by the
-// linearly implicit RODAS3 (stiff/quick.h), with steps chosen by its error. The body's RK4 stages
-// then use its masses at the half and at the end.
+// A hose's small volume settles within 0.1 ms, a muscle behind a wide valve (also through a hose
+// without volume) or with a burst wall within less. RK4 of the whole machine would have to take
+// such steps. Instead such a body of air, or two in series (hose and muscle), is integrated ahead
+// through the step on its own by the linearly implicit RODAS3 (stiff/quick.h), with steps chosen by
+// its error. The body's RK4 stages then use its masses at the half and at the end.
 //
 // Two approximations are made: the muscle's length continues at the node's rate (V is linear over
 // the step: an error of l'' h^2/2, 1e-4 of the volume at 20 m/s^2 and 1 ms), and the supply's
@@ -15,6 +15,7 @@
 // its air by volume, and the law of the hose is not evaluated.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -53,6 +54,8 @@ class QuickBodies : public BodiesOfAir<Most> {
       typename Bodies::FlowInputs, typename Bodies::LinearVolume, typename Bodies::Tap;
 
  private:
+  SlopedFlows sloped_flows(int cell, const FlowInputs& now, double since_node, double y,
+                           bool sloped) const noexcept;
   gas::SlopedFlow sloped_leak(int i, const FlowInputs& now, double y) const noexcept;
   bool is_quick(int cell, double h, const Ends& ends, const Valves& valves) const noexcept;
   template <int Openings>
@@ -65,6 +68,35 @@ class QuickBodies : public BodiesOfAir<Most> {
   void run_regulators_ahead(int first, const FlowInputs& node, double h, const Ends& ends,
                             RegulatorLanes::Outputs& ahead) const noexcept;
 };
+
+// Returns the flows of the valves of muscle i, or of a chamber of the cylinder, with y in it. If
+// the valves' flow passes a hose without volume, y between them is where both flows are equal, and
+// its slopes are those that keep them equal.
+template <int Most>
+auto QuickBodies<Most>::sloped_flows(int cell, const FlowInputs& now, double since_node, double y,
+                                     bool sloped) const noexcept -> SlopedFlows {
+  if (cell >= size_ || !line(cell).has_hose)
+    return sloped_flows_through(2 * cell, now, since_node, y, sloped);
+  if (shut(2 * cell, now)) return {};
+  const gas::HoseConstants& hose = line(cell).hose_flow;
+  const auto surplus = [&](double between) {
+    const SlopedFlows f = sloped_flows_through(2 * cell, now, since_node, between, false);
+    return f.in - f.out - gas::hose_flow_y(hose, between, y);
+  };
+  const double low = std::min({1.0, now.y_supply, y}), high = std::max({1.0, now.y_supply, y});
+  const double between = gas::balance(surplus, low, high);
+  SlopedFlows o = sloped_flows_through(2 * cell, now, since_node, between, sloped);
+  if (!sloped) return o;
+  const gas::SlopedFlow through = gas::sloped_hose_flow_y(hose, between, y);
+  const double opposes = through.by_a - (o.in_by - o.out_by);  // above 0 where anything flows
+  const double by_y = opposes > 0 ? through.by_b / -opposes : 0.0;
+  const double by_time = opposes > 0 ? (o.in_by_time - o.out_by_time) / opposes : 0.0;
+  o.in_by_time += o.in_by * by_time;
+  o.out_by_time += o.out_by * by_time;
+  o.in_by *= by_y;
+  o.out_by *= by_y;
+  return o;
+}
 
 // Returns the flow from muscle i to the room by leaks and holes [kg/s].
 template <int Most>
@@ -94,7 +126,7 @@ bool QuickBodies<Most>::is_quick(int cell, double h, const Ends& ends,
   double slope = valves.leaking ? spring_ * slope_of_faults(cell, valves.faults) : 0.0,
          capacity = 0;
   if (cell < size_) {
-    if (line(cell).has_hose || (valves.broken && blocked(cell, valves))) return false;
+    if (valves.broken && blocked(cell, valves)) return false;
     slope += line(cell).settling + Bodies::settling_of_open(cell, valves);
     if (!(slope > 0)) return false;
     capacity = volume(cell, ends.length[cell]);
@@ -109,7 +141,7 @@ bool QuickBodies<Most>::is_quick(int cell, double h, const Ends& ends,
   return slope * h > quick::from_rate * capacity;
 }
 
-// Integrates one body of air at its valves: a muscle without a hose, or a chamber of the cylinder;
+// Integrates one body of air: a muscle without the air of a hose, or a chamber of the cylinder;
 // the third opening is its leak.
 template <int Most>
 template <int Openings>
@@ -122,7 +154,7 @@ void QuickBodies<Most>::run_ahead(const FlowInputs& node, double h, const Linear
     now.t = t;
     const double v = chamber.volume + chamber.rate * (t - node.t);
     const double y = gas::root(braids_.series(), base, x[0] / v, at_one);
-    const SlopedFlows o = sloped_flows_through(2 * cell.of, now, t - node.t, y, sloped);
+    const SlopedFlows o = sloped_flows(cell.of, now, t - node.t, y, sloped);
     const double by_mass = n7 * y / x[0], by_time = -n7 * y * chamber.rate / v;
     QuickRates<1, Openings> r;
     r.passed[0] = o.in, r.passed[1] = o.out;

@@ -52,19 +52,27 @@ std::vector<Case> cases() {
       one.inlet.flow.area = 3e-5;
     }
   };
-  const auto wide = [](double area, gas::Valve::Kind kind) {
+  const auto wide = [](double area, gas::Valve::Kind kind, const gas::Hose& h = {}) {
     return [=](std::vector<Muscle>& m) {
       for (Muscle& one : m) {
         one.inlet.kind = kind;
         one.inlet.flow.area = one.exhaust.flow.area = area;
+        one.hose = h;
       }
     };
   };
+  const auto steep = [=](std::vector<Muscle>& m) {
+    wide(2e-5, gas::Valve::Kind::two_way)(m);
+    for (Muscle& one : m) one.inlet.flow.linear_below = one.exhaust.flow.linear_below = 0;
+  };
+  const gas::Hose short_pipe{.law = gas::Hose::Law::pipe, .length = 0.1, .inner_diameter = 8e-3};
+  const gas::Hose short_hose = iso_hose(3e-7);
   using Kind = gas::Valve::Kind;
   const AirFault hole{.what = AirFault::What::hole, .begin = 0.05, .leak = {.area = 2e-5}};
-  // Measured: 4.2e-4, 4.9e-4, 3.6e-4, 4.2e-4, 2.0e-4, 9.5e-5, 1.1e-4, 4.7e-5, 2.0e-5, 1.7e-4.
-  // With twelve other drives at most 5.6e-4, 6.9e-4 (once, with another, 1.1e-3), 3.6e-4, 6.3e-4,
-  // 2.0e-4, 4.4e-4 and, of the cylinder alone, 1.2e-3.
+  // Measured: 4.2e-4, 4.9e-4, 3.6e-4, 4.2e-4, 2.0e-4, 9.5e-5, 1.1e-4, 4.7e-5, 2.2e-4, 5.7e-5,
+  // 4.4e-5, 2.0e-5, 1.7e-4. With twelve other drives at
+  // most 5.6e-4, 7.2e-4, 4.1e-4, 5.6e-4, 2.4e-4,
+  // 7.7e-4, 1.3e-4, 4.8e-5, 2.5e-4, 1.9e-4, 4.7e-5, 4.3e-4, and 1.2e-3 of the cylinder alone.
   return {{"pipes", hose(pipe), {}, {}, 1e-3},
           {"fittings", hose(iso_hose(3e-9, 1e-6)), {}, {}, 1e-3},
           {"tiny_hoses", hose(iso_hose(6e-9, 2e-8)), {}, {}, 1e-3},
@@ -73,6 +81,9 @@ std::vector<Case> cases() {
           {"wide_valves", wide(2e-5, Kind::two_way), {}, {}, 1e-3},
           {"very_wide_valves", wide(1e-4, Kind::two_way), {}, {}, 1e-3},
           {"wide_3_way_valves", wide(5e-5, Kind::three_way), {}, {}, 1e-3},
+          {"wide_valves_without_linear_part", steep, {}, {}, 1e-3},
+          {"wide_valves_and_pipes", wide(5e-5, Kind::two_way, short_pipe), {}, {}, 1e-3},
+          {"wide_valves_and_hoses", wide(5e-5, Kind::three_way, short_hose), {}, {}, 1e-3},
           {"rupture", [](std::vector<Muscle>&) {}, {hole}, {}, 1e-3},
           {"cylinder", [](std::vector<Muscle>&) {}, {}, thesis_cylinder(), 1e-3}};
 }

@@ -58,6 +58,7 @@ inline SlopedFlow forward_flow(const FlowConstants& c, double up, double down) {
     return {flow, 7 * flow / up, 0.0};
   }
   const double inside = up * up - down * down, flow = flow_y(c, up, down);
+  if (!(inside > 0)) return {};  // without a linear part the law is infinitely steep there
   return {flow, flow * (1 / up + up / inside), flow * (5 / down - down / inside)};
 }
 

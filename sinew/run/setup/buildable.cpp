@@ -154,7 +154,8 @@ void warn_of_reach(const Experiment& e, const plant::Setup& setup,
 void check_steps(const plant::Setup& s, List& out) {
   constexpr double shortest = 2e-6;  // step [s]
   const double air =
-      air::AirNetwork<plant::most_muscles>(s.muscles, s.air, s.supply, s.cylinder).longest_step();
+      air::AirNetwork<plant::most_muscles>(s.muscles, s.air, s.supply, s.cylinder, {}, s.steps.body)
+          .longest_step();
   const auto micro = [](double step) { return units::format_number(1e6 * step) + " us"; };
   if (s.air.wall_time > 0 && air < shortest) {  // else quick air is integrated ahead
     out.push_back({"air", "a hose or a cylinder's chamber that fills within " + micro(air),

@@ -39,7 +39,9 @@ const Sets pipe{"muscle.hip_flexor.hose.law=pipe", "muscle.hip_flexor.hose.lengt
 
 bool plain(const experiment::Experiment& e) {
   const plant::Setup s = planar_setup(e);
-  return air::AirNetwork<plant::most_muscles>(s.muscles, s.air, s.supply, s.cylinder).plain();
+  return air::AirNetwork<plant::most_muscles>(s.muscles, s.air, s.supply, s.cylinder, {},
+                                              s.steps.body)
+      .plain();
 }
 
 double last(const signals::Table& table, const std::string& topic) {
