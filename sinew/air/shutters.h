@@ -30,21 +30,25 @@ inline ShutterLaw shutter_law(const gas::Valve& valve, std::size_t index) {
           index % 2 == 1 && valve.kind == gas::Valve::Kind::three_way};
 }
 
-// Applies an electrical edge at t to a shutter. `difference`: pressure difference that the valve
-// holds back [Pa]. Returns false if the edge has no effect, nor will its end.
-inline bool command_shutter(const ShutterLaw& law, double t, bool open, double difference,
-                            gas::Shutter& shutter) noexcept {
-  if (law.opposite) return false;
-  if (open && law.fails_above > 0 && difference > law.fails_above) return false;
-  shutter.electrical(t, open, gas::delay_at(law.delay, open, difference));
-  return true;
-}
-
 // Returns the next instant at which a valve or its set point changes, or infinity [s].
 template <class Valve>
 double next_of(const Valve& valve) noexcept {
   const double moves = valve.shutter.next();
   return valve.next_set_at < moves ? valve.next_set_at : moves;
+}
+
+// Applies an electrical edge at t to the shutter of a valve. `difference`: pressure difference that
+// the valve holds back [Pa]. Returns the next instant at which the valve changes, or infinity: t
+// itself if the edge undoes a change that was already applied at t, so that the open shares are
+// renewed there [s].
+template <class Valve>
+double command_shutter(const ShutterLaw& law, double t, bool open, double difference,
+                       Valve& valve) noexcept {
+  const bool is_lost =
+      law.opposite || (open && law.fails_above > 0 && difference > law.fails_above);
+  const bool is_undone =
+      !is_lost && valve.shutter.electrical(t, open, gas::delay_at(law.delay, open, difference));
+  return is_undone ? t : next_of(valve);
 }
 
 // Finds the next change of `count` valves and of the rest of the machine [s].
@@ -56,12 +60,13 @@ void find_next_change(std::size_t count, double of_rest, AirValves<Most>& valves
   valves.next_change = next;
 }
 
-// Updates the next change after a command of valve v. It can also cancel the next change of all;
-// only then all valves are searched. of_rest() returns the next change of the rest [s].
+// Updates the next change after a command of valve v, which changes next at `after`. The command
+// can also cancel the next change of all; only then all valves are searched. of_rest() returns the
+// next change of the rest [s].
 template <int Most, class Rest>
-void note_command(std::size_t v, std::size_t count, const Rest& of_rest,
+void note_command(std::size_t v, double after, std::size_t count, const Rest& of_rest,
                   AirValves<Most>& valves) noexcept {
-  const double before = valves.next_of[v], after = next_of(valves[v]);
+  const double before = valves.next_of[v];
   valves.next_of[v] = after;
   if (after <= valves.next_change)
     valves.next_change = after;

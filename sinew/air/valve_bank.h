@@ -189,11 +189,12 @@ void ValveBank<Most>::command(const signals::Edge& edge, double t, double differ
     const double share = static_cast<double>(edge.level) / signals::max_level;
     valves[i].next_set = gas::set_point(v.regulator, share, air_.atmosphere);
     valves[i].next_set_at = t;
-  } else {
-    if (!command_shutter(taps_[i].shutter, t, edge.open, difference, valves[i].shutter)) return;
   }
+  const double after = regulates(v)
+                           ? next_of(valves[i])
+                           : command_shutter(taps_[i].shutter, t, edge.open, difference, valves[i]);
   note_command(
-      i, taps_.size(), [&] { return faults_.next(valves.faults); }, valves);
+      i, after, taps_.size(), [&] { return faults_.next(valves.faults); }, valves);
 }
 
 template <int Most>

@@ -76,12 +76,14 @@ struct Shutter {
 
   // Switches the coil's current at t. Edges must come in order of time, none earlier than the last
   // advance(); up to `capacity` instants may be pending. An unchanged command has no effect.
-  void electrical(double t, bool open) noexcept {
-    electrical(t, open, open ? opening_delay_ : closing_delay_);
+  // Returns whether a change that was already applied at t is undone: fraction(t) differs from then
+  // on, although no instant is pending.
+  bool electrical(double t, bool open) noexcept {
+    return electrical(t, open, open ? opening_delay_ : closing_delay_);
   }
 
   // Switches with a delay for this edge.
-  void electrical(double t, bool open, double delay) noexcept;
+  bool electrical(double t, bool open, double delay) noexcept;
 
   // Returns the next instant at which the current piece of fraction() ends, or infinity.
   double next() const noexcept;
@@ -160,15 +162,15 @@ inline Shutter::Shutter(const Valve& valve) noexcept {
   closing_ramp_ = valve.closing_ramp;
 }
 
-inline void Shutter::electrical(double t, bool open, double delay) noexcept {
-  if (open == command_) return;
+inline bool Shutter::electrical(double t, bool open, double delay) noexcept {
+  if (open == command_) return false;
   command_ = open;
-  if (jammed_) return;
+  if (jammed_) return false;
 
   // The last change is still pending: it is cancelled, and the shutter keeps its position.
   if (count_ > 0 && pending(count_ - 1).instant >= t - simultaneous) {
     --count_;
-    return;
+    return false;
   }
 
   // The last change was applied at this instant: it is undone.
@@ -176,7 +178,7 @@ inline void Shutter::electrical(double t, bool open, double delay) noexcept {
     piece_ = previous_;
     changed_ = -std::numeric_limits<double>::infinity();
     moved_ = moved_before_;
-    return;
+    return true;
   }
 
   if (count_ == capacity) {
@@ -188,6 +190,7 @@ inline void Shutter::electrical(double t, bool open, double delay) noexcept {
   if (instant < since + shortest_) instant = since + shortest_;
   queue_[(head_ + count_) % capacity] = {instant, open};
   ++count_;
+  return false;
 }
 
 inline void Shutter::jam(double t, double share) noexcept {

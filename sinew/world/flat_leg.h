@@ -44,9 +44,9 @@ class FlatMachine {
   void command(int, const signals::Edge& edge, double t, double pressure) noexcept {
     const std::size_t v = edge.valve.index;
     const double difference = v % 2 == 0 ? supply_.line - pressure : pressure - atmosphere_;
-    if (!air::command_shutter(laws_[v], t, edge.open, difference, valves_[v].shutter)) return;
+    const double after = air::command_shutter(laws_[v], t, edge.open, difference, valves_[v]);
     air::note_command(
-        v, laws_.size(), [] { return air::never; }, valves_);
+        v, after, laws_.size(), [] { return air::never; }, valves_);
   }
   void move_valves(int, double t) noexcept {
     if (valves_.next_change > t) return;

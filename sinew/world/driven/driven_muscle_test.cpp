@@ -71,6 +71,31 @@ TEST(DrivenMuscle, GoesOnFromItsState) {
 }
 
 // A regulator's set point is reached and held.
+// The node at which the valve opens and the edge that shuts it differ by rounding only.
+TEST(DrivenMuscle, APulseOfJustTheOpeningDelayPassesNoAir) {
+  constexpr double tick = 1e-4;
+  Muscle m = bundle(0);
+  m.inlet.profile = gas::Valve::Profile::dead_time;
+  m.inlet.opening_delay = 3 * tick;
+  m.inlet.closing_delay = 2.6 * tick;
+  DrivenMuscle driven(m, {}, {}, swinging(0));
+  const auto pass = [&](int ticks) {
+    for (int k = 0; k < ticks; ++k) driven.advance(tick, swinging(0));
+  };
+  for (int pulse = 0; pulse < 200; ++pulse) {
+    driven.inlet(true);
+    pass(3);
+    driven.inlet(false);
+    pass(20 + pulse % 7);
+  }
+  EXPECT_LT(driven.account().in, 1e-15);
+  driven.inlet(true);
+  pass(4);
+  driven.inlet(false);
+  pass(20);
+  EXPECT_GT(driven.account().in, 1e-8);
+}
+
 TEST(DrivenMuscle, FollowsASetPoint) {
   Muscle m = bundle(0);
   m.inlet.kind = gas::Valve::Kind::regulator;
