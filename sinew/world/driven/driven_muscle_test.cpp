@@ -70,7 +70,6 @@ TEST(DrivenMuscle, GoesOnFromItsState) {
   }
 }
 
-// A regulator's set point is reached and held.
 // The node at which the valve opens and the edge that shuts it differ by rounding only.
 TEST(DrivenMuscle, APulseOfJustTheOpeningDelayPassesNoAir) {
   constexpr double tick = 1e-4;
@@ -96,6 +95,7 @@ TEST(DrivenMuscle, APulseOfJustTheOpeningDelayPassesNoAir) {
   EXPECT_GT(driven.account().in, 1e-8);
 }
 
+// A regulator's set point is reached and held.
 TEST(DrivenMuscle, FollowsASetPoint) {
   Muscle m = bundle(0);
   m.inlet.kind = gas::Valve::Kind::regulator;
