@@ -164,7 +164,7 @@ class BodyMechanism : public PlanarMechanism<M> {
                    Truth& out) const noexcept;
 
  private:
-  void choose_steps(double body_step);
+  void choose_steps(const Setup& setup);
   void load(const Pose& body, const Motion& m, const Arms& arms, const air::Lanes<M>& tension,
             double piston_force, Load& out) const noexcept;
   double cylinder_stop(const Motion& m) const noexcept;
@@ -204,7 +204,7 @@ BodyMechanism<N, D, M>::BodyMechanism(const Setup& setup)
   }
   start_.at[along_track] = setup.start.trolley;
   start_.at[up] = setup.start.lift;
-  choose_steps(setup.steps.body);
+  choose_steps(setup);
 }
 
 template <int N, int D, int M>
@@ -217,9 +217,11 @@ double BodyMechanism<N, D, M>::sum(const Motion& m) const noexcept {
 // Chooses the step that suits all rates, and the longer ones without the ground or with its damper
 // relaxed.
 template <int N, int D, int M>
-void BodyMechanism<N, D, M>::choose_steps(double body_step) {
+void BodyMechanism<N, D, M>::choose_steps(const Setup& setup) {
+  const double body_step = setup.steps.body;
+  const std::vector<MusclesAtJoint> muscles = muscles_at_joints(setup);
   const auto rates = [&](const Motion& m) {
-    return contacts_.fastest_rates(Body<N>(constants_, m), m, robot_);
+    return contacts_.fastest_rates(Body<N>(constants_, m), m, robot_, muscles);
   };
   // A light foot is quick if the ground pushes past its centre of mass. The poses cover the
   // range of angles: each link turns by an irrational number of turns from one to the next (5 + 7 j

@@ -545,8 +545,12 @@ class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N
   // its start.
   double node_step(const Setup& setup) const {
     std::array<double, N> damping = model_.damping, spring = model_.spring;
-    for (int j = 0; j < N; ++j)
-      damping[j] += model_.stop[j].damping, spring[j] += model_.stop[j].stiffness;
+    const std::vector<MusclesAtJoint> muscles = muscles_at_joints(setup);
+    for (int j = 0; j < N; ++j) {
+      const MusclesAtJoint& at = muscles[static_cast<std::size_t>(j)];
+      damping[j] += model_.stop[j].damping + at.damping;
+      spring[j] += model_.stop[j].stiffness + at.stiffness;
+    }
     return stable_step(setup.steps.body,
                        this->contacts_.stiffest_rate(Pose(model_.chain, start_), damping, spring));
   }

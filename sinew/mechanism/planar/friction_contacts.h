@@ -29,10 +29,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <type_traits>
 
 #include "sinew/mechanism/friction/friction.h"
 #include "sinew/mechanism/planar/body.h"
+#include "sinew/mechanism/planar/muscle_routing.h"
 #include "sinew/robot/legs.h"
 #include "sinew/robot/robot.h"
 
@@ -103,9 +105,11 @@ class FrictionContacts {
   std::size_t foot_of(int disc) const { return disc_[static_cast<std::size_t>(disc)].foot; }
   double friction(std::size_t disc) const { return disc_[disc].friction; }  // Coulomb [-]
 
-  // Returns the fastest rates at which the machine is brought to rest in a pose [1/s].
+  // Returns the fastest rates at which the machine is brought to rest in a pose [1/s]. `muscles`:
+  // what they add to each joint.
   FastestRates fastest_rates(const Body<N>& body, const BodyState<N>& motion,
-                             const robot::Robot& robot) const;
+                             const robot::Robot& robot,
+                             std::span<const MusclesAtJoint> muscles) const;
   DiscAt<N> disc(const Body<N>& body, const BodyState<N>& motion, int i) const;
 
   // Returns the depth of a disc in the ground; above 0 if they touch [m].
@@ -391,7 +395,8 @@ void FrictionContacts<N, D>::add_foot(const robot::Robot& robot, std::size_t leg
 
 template <int N, int D>
 FastestRates FrictionContacts<N, D>::fastest_rates(const Body<N>& body, const BodyState<N>& motion,
-                                                   const robot::Robot& robot) const {
+                                                   const robot::Robot& robot,
+                                                   std::span<const MusclesAtJoint> muscles) const {
   FastestRates fastest;
   const auto per_force = [&](const Coordinates<N>& row) {
     return dot(k_, row, body.response(row));
@@ -401,8 +406,9 @@ FastestRates FrictionContacts<N, D>::fastest_rates(const Body<N>& body, const Bo
   };
   for (std::size_t j = 0; j < k_.links(); ++j) {
     const robot::Joint& joint = robot.joints[j];
-    include(per_force(row(static_cast<int>(j))), joint.damping + joint.damper + joint.stop.damping,
-            joint.spring + joint.stop.stiffness);
+    include(per_force(row(static_cast<int>(j))),
+            joint.damping + joint.damper + joint.stop.damping + muscles[j].damping,
+            joint.spring + joint.stop.stiffness + muscles[j].stiffness);
   }
   if (!k_.held[along_track])
     include(per_force(row(trolley)), robot.trolley.stop_damping, robot.trolley.stop_stiffness);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sinew/actuator/tension.h"
 #include "sinew/robot/kinematics.h"
 
 namespace sinew::plant {
@@ -33,6 +34,30 @@ double CamLaw::area(double angle) const noexcept {
     return area_[k - 1] + 0.5 * (radius_[k - 1] + radius(angle)) * inside;
   }
   return area_.back() + radius_.back() * (angle - angle_.back());
+}
+
+double CamLaw::largest_radius() const noexcept { return *std::ranges::max_element(radius_); }
+
+std::vector<MusclesAtJoint> muscles_at_joints(const Setup& setup) {
+  std::vector<MusclesAtJoint> out(setup.robot.joints.size());
+  for (std::size_t i = 0; i < setup.muscles.size(); ++i) {
+    const robot::Muscle& m = setup.robot.muscles[i];
+    const actuator::Actuator& a = setup.muscles[i].actuator;
+    const bool empirical = a.short_end.law == actuator::ShortEnd::Law::empirical;
+    const double damping = (empirical ? actuator::empirical_loss : 1.0) * a.loss.viscous +
+                           std::max(a.long_end.damping, a.short_end.damping);
+    const double stiffness = std::max(a.long_end.stiffness, a.short_end.stiffness);
+    const auto add = [&](const std::string& joint, const robot::Cam& cam) {
+      if (joint.empty()) return;
+      const auto j = static_cast<std::size_t>(robot::find_joint(setup.robot, joint));
+      const double r = CamLaw(cam, setup.robot.joints[j]).largest_radius();
+      out[j].damping += setup.muscles[i].count * damping * r * r;
+      out[j].stiffness += setup.muscles[i].count * stiffness * r * r;
+    };
+    add(m.joint, m.cam);
+    add(m.second.joint, m.second.cam);
+  }
+  return out;
 }
 
 MuscleRouting::MuscleRouting(const robot::Robot& robot) {

@@ -37,6 +37,7 @@ class CamLaw {
   // Returns whether the radius is the same at every angle.
   bool round() const noexcept { return round_; }
   double rest() const noexcept { return rest_; }  // angle at which S is 0 [rad]
+  double largest_radius() const noexcept;         // [m]
 
  private:
   double radius_of_table(double angle) const noexcept;
@@ -142,6 +143,15 @@ void MuscleRouting::at(const double* angle, const double* rate, air::Lanes<M>& l
     length_rate[i] = length_rate[count() - 1];
   }
 }
+
+// What the losses and ends of the muscles add to a joint: c r^2 and k r^2 at the largest radius.
+struct MusclesAtJoint {
+  double damping = 0;    // [N m s/rad]
+  double stiffness = 0;  // of their ends [N m/rad]
+};
+// Returns these for every joint of the machine, for the choice of its step. The braid's own
+// stiffness is not in it: with the air in it, it is far below that of the ends.
+std::vector<MusclesAtJoint> muscles_at_joints(const Setup& setup);
 
 // Loads of the trolley's two rollers, 4.2 and 7.2.
 //

@@ -24,8 +24,9 @@ Controllers::Controllers(const experiment::Experiment& e, Steering* steering)
 
 signals::Tick Controllers::first_sample(signals::Tick period) const noexcept {
   const signals::Scan its = scan();
-  const bool at_law = gait() && period % its.period == 0 && !its.conversions.empty();
-  return at_law ? its.conversions.back().read : 0;
+  if (!gait() || its.conversions.empty()) return 0;
+  const signals::Tick read = its.conversions.back().read;
+  return period % its.period == 0 ? read : (read + period - 1) / period * period;
 }
 
 std::size_t Controllers::most_edges(signals::Tick end) const noexcept {

@@ -37,9 +37,9 @@ class Controllers {
 
   // Returns the scan of conversions.
   signals::Scan scan() const noexcept { return boards_.scan(); }
-  // Returns the tick of the first sample if one is taken every `period`: for a robot, if `period`
-  // is a multiple of the scan's, the tick of the scan's last reading, at which the last law runs;
-  // else 0.
+  // Returns the tick of the first sample if one is taken every `period`. For a robot it is that of
+  // the scan's last reading, at which the last law runs, or the next multiple of `period` if that
+  // is no multiple of the scan's: earlier there are no readings. For a stand it is 0.
   signals::Tick first_sample(signals::Tick period) const noexcept;
   // Returns the largest number of edges that a valve can have before the tick `end`.
   std::size_t most_edges(signals::Tick end) const noexcept;

@@ -83,6 +83,20 @@ TEST(Run, ThreadsChangeNothing) {
   for (const Outcome& o : together) expect_same(alone.table, o.table);
 }
 
+// A row has a reading of every sensor, also before the first period of the laws is over.
+TEST(Run, NoRowIsBeforeTheFirstReading) {
+  for (const std::string period : {"0.1", "0.2", "0.5", "1", "5", "7", "10"})
+    for (const std::string ticks : {"100", "200"}) {
+      const Outcome o = run(experiment::load(
+          source + "/experiments/one-joint.toml",
+          {"log.period=" + period + " ms", "low_level.pwm_ticks=" + ticks,
+           "control.high_level_period=20 ms", "start.settle=0 s", "sequence.repeat=1"}));
+      const signals::Series& counts = *o.table.find("/sensor/lever_angle/count");
+      for (const double count : counts.columns[0]) ASSERT_GT(count, 1900) << period << ticks;
+      EXPECT_LT(counts.time_ns.front(), 20'000'000) << period << ticks;
+    }
+}
+
 TEST(Run, AFasterLogSeesTheSameRun) {
   const Outcome slow = run(walk()), fast = run(walk({"log.period=0.5 ms"}));
   const auto& a = *slow.table.find("/valve/hip_flexor/inlet/open");
