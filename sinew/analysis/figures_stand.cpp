@@ -175,10 +175,11 @@ Window last_periods(const Log& log) {
   return w;
 }
 
-// Returns mean and ripple of values() in the window; nothing without values.
 struct Ripple {
   double mean = 0, ripple = 0;
 };
+
+// Returns mean and ripple of the values in the window; nothing without values.
 std::optional<Ripple> ripple_of(const Window& w, const Column* values) {
   if (!values || w.end <= w.begin) return {};
   const std::vector<double> last = values->slice(w.begin, w.end);
