@@ -98,8 +98,9 @@ void warn(const RunFitResult& out, Report& report, double rms) {
   if (rms > more_than_noise)
     report.warnings.push_back(fmt::format(
         "what is left is {:.3g} times the sensors' noise: this machine is not quite "
-        "the one that was measured, and the intervals hold only a part of that difference",
-        rms));
+        "the one that was measured{}",
+        rms,
+        out.no_intervals.empty() ? ", and the intervals hold only a part of that difference" : ""));
   const Fit& fit = report.fits[0];
   if (fit.fit.points > 0 && fit.held_out && fit.held_out->rmse > 1.5 * fit.fit.rmse)
     report.warnings.push_back(
@@ -115,13 +116,14 @@ void warn(const RunFitResult& out, Report& report, double rms) {
 // Removes intervals that would be wrong. In a hundred runs in the air derivatives over both steps
 // agreed within 0.02, mostly within 0.001. In walks they differed by 0.03 to 0.9, and however small
 // the difference, none of six searches ended at the true values: a single landing is enough.
-void judge_intervals(const DrivenRun& run, double until, double roughness, RunFitResult& out,
-                     std::vector<Estimate>& estimates) {
+// Residuals far above the noise are not noise, and do not show how far off the values are.
+void judge_intervals(const DrivenRun& run, double until, RunFitResult& out, RunJudged& judged) {
   constexpr double smooth = 0.05;
-  out.roughness = roughness;
-  out.rough = !(roughness <= smooth);
+  out.roughness = judged.roughness;
+  out.rough = !(out.roughness <= smooth);
   out.landings = run.landings(out.machine, until);
-  if (!out.rough && out.landings == 0) return;
+  const bool is_far = judged.rms > far_above_noise;
+  if (!out.rough && out.landings == 0 && !is_far) return;
   out.no_intervals =
       out.landings > 0
           ? fmt::format(
@@ -129,9 +131,16 @@ void judge_intervals(const DrivenRun& run, double until, double roughness, RunFi
                 "numbers, and after each time everything lies elsewhere; the search ends near the "
                 "optimum, and how near is not known. A run in the air has intervals",
                 out.landings)
+      : is_far
+          ? fmt::format(
+                "what is left is {:.3g} times the sensors' noise, and more than {:g} times it is "
+                "not noise: the search ended in a wrong optimum, or something else than these "
+                "numbers differs. Start values nearer to the truth, or more numbers to fit, may "
+                "help",
+                judged.rms, far_above_noise)
           : "the readings jump where a number changes a little; the search ends near the optimum, "
             "and how near is not known. Another run may have no such jumps";
-  for (Estimate& e : estimates) {
+  for (Estimate& e : judged.estimates) {
     e.remove_interval();
     e.at_bound = false;
   }
@@ -208,7 +217,7 @@ double search_numbers(const Experiment& e, const DrivenRun& run, const RunFitOpt
   for (std::string& direction : open_directions(s, parameters))
     out.undetermined.push_back(std::move(direction));
   out.machine = whole.machine(found.p);
-  judge_intervals(run, until, s.roughness, out, s.estimates);
+  judge_intervals(run, until, out, s);
   out.report.fits[0].parameters = s.estimates;
   out.simulations = first.simulations() + whole.simulations();
   return s.rms;

@@ -76,8 +76,8 @@ struct RunFitResult {
   std::vector<std::string> undetermined;  // combinations of parameters, in words
   experiment::Experiment machine;         // with the identified values
 
-  // Why no intervals are given: the readings jump with the parameters, so their derivatives near
-  // the solution give no error bounds. Empty: they are given.
+  // Why no intervals are given: the readings jump with the parameters, or the residuals are far
+  // above the noise, so derivatives near the solution give no error bounds. Empty: they are given.
   std::string no_intervals;
   bool rough = false;    // derivatives over a longer step differ
   double roughness = 0;  // relative difference of the derivatives

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 #include "sinew/config/write/writer.h"
@@ -42,6 +43,46 @@ TEST(RunFit, FindsFrictionAndADeadTimeOfOneJoint) {
   EXPECT_NEAR(found.report.best().held_out->rmse, 1, 0.1);
   EXPECT_GT(found.at_start, 10);
   EXPECT_TRUE(found.undetermined.empty());
+}
+
+// A dead time several ticks from the start is found, also one of whole ticks, whose pulses of just
+// its length are lost.
+TEST(RunFit, FindsADeadTimeSeveralTicksFromTheStart) {
+  const std::string key = "valve.inlet.opening_delay";
+  const experiment::Experiment start = shipped("one-joint");
+  for (const double truth : {0.45e-3, 0.3e-3}) {
+    experiment::Experiment machine = start;
+    set_number(machine, key, truth);
+    const DrivenRun driven(start, recorded(machine), false);
+    const RunFitResult found = fit_run(start, driven, {});
+    EXPECT_GT(found.at_start, 100);
+    EXPECT_NEAR(found.report.best().fit.rmse, 1, 0.05);
+    EXPECT_NEAR(estimate(found, key).value, truth, 1e-4);
+  }
+}
+
+// Where the numbers that are fitted cannot explain the run, the result is still no worse than the
+// start, and residuals far above the noise give no interval.
+TEST(RunFit, IsNeverWorseThanItsStartAndGivesNoIntervalFarAboveTheNoise) {
+  const std::vector<std::string> fit = {"valve.inlet.opening_delay", "valve.exhaust.closing_delay"};
+  experiment::Experiment start = shipped("one-joint");
+  const DrivenRun driven(start, recorded(start), false);
+  for (const double times : {1.0, 1.001, 1.02, 0.8, 1.5}) {
+    experiment::Experiment other = start;
+    const std::string volume = "muscle.flexor.external_volume";
+    set_number(other, volume, times * number_at(start, volume));
+    const RunFitResult found = fit_run(other, driven, {.fit = fit, .rounds = 1});
+    const double left = found.report.best().fit.rmse;
+    EXPECT_LE(left, found.at_start * (1 + 1e-9)) << times;
+    EXPECT_EQ(left > 5, !found.no_intervals.empty()) << times << ": " << left;
+    for (const Estimate& e : found.report.best().parameters)
+      EXPECT_EQ(std::isfinite(e.high - e.low), found.no_intervals.empty()) << times;
+    if (left > 5) {
+      EXPECT_NE(found.no_intervals.find("times the sensors' noise"), std::string::npos);
+      EXPECT_EQ(run_file(found, "a run", config::make_table("robot")).find("uncertainty"),
+                std::string::npos);
+    }
+  }
 }
 
 // A leg that hangs in the air does not move its trolley measurably.

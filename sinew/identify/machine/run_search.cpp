@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "sinew/gas/delay.h"
 #include "sinew/host/side_by_side.h"
 
 namespace sinew::identify {
@@ -89,9 +90,9 @@ namespace {
 constexpr double only_noise = 1.05;  // rms in noises, above which cells are changed
 constexpr double tick = signals::tick_seconds;
 
-// If the residuals are far above the noise, the search is in a wrong minimum: it restarts with all
-// dead times shorter, or longer.
-constexpr double far_above_noise = 5;
+// If the residuals are far above the noise, the search is in a wrong minimum: it restarts with the
+// dead times that fit best while all other parameters are as at the start, then with all dead times
+// shorter, or longer.
 constexpr double other_dead_times[] = {0.8, 1.2, 0.6, 1.4};
 
 // Returns trial values of a parameter, in addition to its current value.
@@ -126,6 +127,12 @@ void scan_numbers(const RunResiduals& residuals, std::span<const Parameter> para
   }
 }
 
+// Returns the number of whole ticks in a dead time. A dead time of whole ticks loses the pulses of
+// its length, as a longer one does.
+double ticks_in(double dead_time) {
+  return std::floor((dead_time + gas::Shutter::simultaneous) / tick);
+}
+
 // Returns the other delay of the same valve; the number of parameters if it is not searched.
 std::size_t partner_of(std::span<const Parameter> parameters, std::size_t i) {
   const auto valve = [](const std::string& key) { return key.substr(0, key.rfind('.')); };
@@ -143,7 +150,7 @@ TrialPoints cells_around(std::span<const Parameter> parameters, const std::vecto
                          int ticks) {
   constexpr double inset = 0.02 * tick;
   const auto cell = [&](std::size_t i, int by) {
-    const double low = (std::floor(p[i] / tick) + by) * tick;
+    const double low = (ticks_in(p[i]) + by) * tick;
     return RunCell{low + inset, low + tick - inset};
   };
   TrialPoints out;
@@ -167,6 +174,23 @@ TrialPoints cells_around(std::span<const Parameter> parameters, const std::vecto
       }
   }
   return out;
+}
+
+// Moves the dead times, valve after valve, to the cells that fit best while all else stays.
+void scan_dead_times(const RunResiduals& residuals, std::span<const Parameter> parameters,
+                     int threads, std::vector<double>& p) {
+  constexpr int rounds = 4, far = 3;
+  double best = residuals.cost(p);
+  for (int round = 0; round < rounds; ++round) {
+    const TrialPoints tried = cells_around(parameters, p, far);
+    std::vector<double> cost(tried.size());
+    host::side_by_side(
+        tried.size(), [&](std::size_t k) { cost[k] = residuals.cost(tried[k]); }, nullptr, threads);
+    const auto k = static_cast<std::size_t>(std::ranges::min_element(cost) - cost.begin());
+    if (k == cost.size() || !(cost[k] < best)) return;
+    best = cost[k];
+    p = tried[k];
+  }
 }
 
 // Tries the best few of these cells with a few steps each; returns false if none is better than
@@ -272,6 +296,17 @@ void search_open_cells(const RunResiduals& residuals, std::span<const Parameter>
   best.others.assign(all.begin() + 1, all.end());
 }
 
+// Replaces a solution that fits worse than the start by the one next to the start, or by the start
+// itself.
+void keep_start(const RunResiduals& residuals, std::span<const Parameter> parameters,
+                const std::vector<double>& start, int threads, RunSearched& best) {
+  constexpr int steps = 15;
+  const double rms = std::sqrt(2 * residuals.cost(start) / static_cast<double>(residuals.count()));
+  if (!(rms < best.rms)) return;
+  best = search_in_cells(residuals, parameters, start, steps, threads);
+  if (rms < best.rms) best = {start, run_cells(parameters, start), rms};
+}
+
 }  // namespace
 
 bool is_dead_time(const Parameter& number) { return number.name.ends_with("ing_delay"); }
@@ -280,7 +315,7 @@ std::vector<RunCell> run_cells(std::span<const Parameter> parameters, std::span<
   std::vector<RunCell> out(parameters.size());
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!is_dead_time(parameters[i])) continue;
-    const double below = std::floor(p[i] / tick) * tick;
+    const double below = ticks_in(p[i]) * tick;
     out[i] = {std::max(parameters[i].low, below + jump_clearance), below + tick - jump_clearance};
   }
   return out;
@@ -307,7 +342,17 @@ RunSearched search_run(const RunResiduals& beginning, const RunResiduals& whole,
     return found;
   };
   RunSearched best = search_from(start);
+  const auto search_again = [&](std::vector<double> p) {
+    RunSearched found = search_from(std::move(p));
+    if (found.rms < best.rms) best = std::move(found);
+  };
   const bool others = std::ranges::any_of(parameters, is_dead_time);
+  if (best.rms > far_above_noise && others) {
+    std::vector<double> p = start;
+    scan_dead_times(beginning, parameters, threads, p);
+    report("begins again with the dead times that fit best", best.rms);
+    search_again(std::move(p));
+  }
   for (const double times : other_dead_times) {
     if (best.rms < far_above_noise || !others) break;
     report(fmt::format("begins again with dead times of {:.3g} times those at the start", times),
@@ -316,11 +361,11 @@ RunSearched search_run(const RunResiduals& beginning, const RunResiduals& whole,
     for (std::size_t i = 0; i < p.size(); ++i)
       if (is_dead_time(parameters[i]))
         p[i] = std::clamp(times * p[i], parameters[i].low, parameters[i].high);
-    RunSearched found = search_from(p);
-    if (found.rms < best.rms) best = std::move(found);
+    search_again(std::move(p));
   }
   best = search_in_cells(whole, parameters, best.p, most_steps, threads);
   report("searched in all of the run", best.rms);
+  keep_start(whole, parameters, start, threads, best);
   settle_cells(whole, parameters, threads, best);
   search_open_cells(whole, parameters, threads, best);
   report("neighbouring dead times", best.rms);

@@ -83,8 +83,11 @@ struct RunSearched {
   std::vector<RunSearched> others;  // in other cells that the run does not exclude
 };
 
+// Residuals that are this many times the noise [rms] show a wrong minimum, or another machine.
+inline constexpr double far_above_noise = 5;
+
 // Scans and searches with the beginning of the run, moves to neighbouring cells while the residuals
-// exceed the noise, and ends with all of `whole`.
+// exceed the noise, and ends with all of `whole`, where the result is never worse than the start.
 RunSearched search_run(const RunResiduals& beginning, const RunResiduals& whole,
                        std::span<const Parameter> parameters, const RunFitOptions& options,
                        int threads);
