@@ -423,6 +423,8 @@ class Pair {
                     fmt::format("at least {}", least), "another time to hold out");
   }
 
+  // The effort follows the position: a viscous loss resembles an effort that leads it, k x(t +
+  // c/k), so a delay below zero is left to constraints.
   Candidate candidate_of(const PairLaw& law) const {
     Candidate out{.model = law.name,
                   .law = law.law,
@@ -434,6 +436,8 @@ class Pair {
     try {
       PairProblem problem(law, thinned_);
       out.parameters = problem.parameters();
+      for (Parameter& p : out.parameters)
+        if (p.name.starts_with("delay") && !options_.constraints.of(p.name)) p.low = 0;
       out.starts = problem.starts();
       out.predict = [problem](std::span<const double> p, std::span<double> effort) mutable {
         problem.predict(p, effort);
@@ -501,7 +505,11 @@ class Pair {
       measured[shown.held_out[i]].push_back(shown.measured[i]);
     }
     out.fit.fit = score(part[0], full_scale_, measured[0]);
-    if (!part[1].empty()) out.fit.held_out = score(part[1], full_scale_, measured[1]);
+    if (part[1].empty()) return;
+    // What was held out of every fit gives a wider band than blocks of the fitted time, if the pair
+    // behaves differently there.
+    out.fit.held_out = score(part[1], full_scale_, measured[1]);
+    out.fit.band = band_of(part[1]);
   }
 
   // Returns the residuals of another recording with the identified physics and sensors of its rig.
@@ -528,6 +536,11 @@ class Pair {
       if (e.free && e.at_bound && physics) at_bound += (at_bound.empty() ? "" : ", ") + e.name;
       if (e.free && (e.name == "stiffness" || e.name == "area") && !e.identifiable)
         unknown += (unknown.empty() ? "" : " and ") + e.name;
+      if (e.name.starts_with("delay") && e.free && e.at_bound && e.value == 0)
+        fit.notes.push_back(e.name +
+                            ": the data push it below zero, where the effort would lead the "
+                            "position; it stays 0. A loss that the law lacks looks like this; for "
+                            "a position sensor that is late, freeze a delay below zero");
       if (e.name == "presliding" && e.free && (e.at_bound || !(e.low > 0)))
         fit.notes.push_back(
             "presliding: not distinguished from none; it slips within what the position resolves");

@@ -73,6 +73,41 @@ TEST(Pair, ADelayBeyondTheLikelyOnesIsFoundOrFrozen) {
               testing::Contains("the value of delay, at the bound of its range"));
 }
 
+// A viscous loss resembles an effort that leads the position, k x(t + c/k). It is told apart where
+// the delay cannot be negative; a constraint may still allow it.
+TEST(Pair, AViscousLossIsNotTakenForANegativeDelay) {
+  const TestPair truth{.mass = 0, .friction = 0};
+  const std::vector<PairRecord> records{test_record(truth, 13, false, 8)};
+  const PairResult found = identify_pair(records);
+  EXPECT_EQ(found.report.best().model, "spring_viscous") << found.report.rule;
+  EXPECT_GE(parameter(found, "delay").value, 0);
+  expect_within(found, "viscous", truth.viscous, 0.1);
+  const auto fit = [&](const Constraints& constraints) {
+    return identify_pair(records, {.model = "spring", .constraints = constraints});
+  };
+  const PairResult lossless = fit({});
+  EXPECT_EQ(parameter(lossless, "delay").value, 0);
+  EXPECT_THAT(lossless.report.best().notes,
+              testing::Contains(testing::StartsWith("delay: the data push it below zero")));
+  const PairResult leads = fit(Constraints({.prior = {"delay=0 s +- 1 s"}}));
+  EXPECT_LT(parameter(leads, "delay").value, 0);
+}
+
+// A band is that of what was held out of every fit, however well the rest is predicted.
+TEST(Pair, ABandHoldsWhatWasHeldOutOfAChangedPair) {
+  TestPair truth{.mass = 0};
+  std::vector<PairRecord> records{test_record(truth, 14, false, 8, "a.csv")};
+  truth.stiffness *= 1.3;
+  records.push_back(test_record(truth, 15, false, 8, "b.csv"));
+  records[1].held_out = true;
+  const Fit best = identify_pair(records, {.model = "spring_viscous_bristle"}).report.best();
+  ASSERT_TRUE(best.band);
+  std::size_t in = 0;
+  for (std::size_t i = records[0].size(); i < best.residuals.size(); ++i)
+    in += std::abs(best.residuals[i]) <= best.band->half_95;
+  EXPECT_NEAR(static_cast<double>(in) / static_cast<double>(records[1].size()), 0.95, 0.01);
+}
+
 TEST(Pair, ChoosesTheLawThatItWasMadeWith) {
   const PairResult bristle = identify_pair({{test_record({.mass = 0}, 2, false, 5)}});
   EXPECT_EQ(bristle.report.best().model, "spring_viscous_bristle") << bristle.report.rule;
