@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 
 namespace sinew::experiment {
 namespace {
@@ -21,7 +22,14 @@ std::vector<const signals::Series*> counts_of(const Experiment& e, const signals
   return out;
 }
 
-// Returns the rows to write: the first at or after each instant.
+// Returns the time at which every sensor has been converted once: a stand's board converts them at
+// the end of each of its periods. Earlier counts are 0 and no readings [ns].
+std::int64_t first_reading(const Experiment& e) {
+  return std::llround(1e9 * e.stand->drive.period) - signals::tick_nanoseconds;
+}
+
+// Returns the rows to write: the first at or after each instant, without those before the first
+// reading.
 std::vector<std::size_t> rows_of(const Experiment& e, const signals::Times& time_ns) {
   const double period = e.stand->measured.period > 0 ? e.stand->measured.period : e.log.period;
   std::vector<std::size_t> out;
@@ -30,7 +38,7 @@ std::vector<std::size_t> rows_of(const Experiment& e, const signals::Times& time
     const auto at = std::llround(1e9 * (e.stand->measured.from + static_cast<double>(k) * period));
     while (row < time_ns.size() && time_ns[row] < at) ++row;
     if (row == time_ns.size()) return out;
-    out.push_back(row);
+    if (time_ns[row] >= first_reading(e)) out.push_back(row);
   }
 }
 

@@ -4,7 +4,8 @@
 //   time [s],force [N],length [m],pressure [Pa gauge]
 //
 // The file has a row per measured.period from measured.from on and a column per sensor, under its
-// name and with all errors of its transducer. It contains nothing that only a simulation has.
+// name and with all errors of its transducer. It contains nothing that only a simulation has, and
+// no row before the sensors' first conversion, at the end of the first drive.period.
 #pragma once
 
 #include <string>

@@ -72,6 +72,15 @@ TEST(Measured, WeightsMakeALoop) {
   }
 }
 
+// A converter has no reading before its first conversion; its count, 0, would be a length of
+// 2.2 in.
+TEST(Measured, HasNoRowBeforeTheFirstConversion) {
+  const Done t = done("creep", {"duration=0.5 s", "measured.period=10 ms"});
+  ASSERT_FALSE(t.notes.time.empty());
+  EXPECT_NEAR(t.notes.time[0], t.experiment.stand->drive.period, 1e-9);
+  for (const double length : t.of(Of::length)) EXPECT_NEAR(length / inch, 3.3, 0.02);
+}
+
 // Readings equal the true values, to the transducer's noise, counts and divisions.
 TEST(Measured, ReadsTheTruth) {
   const Done t = done("sealed-bpa");
