@@ -13,13 +13,15 @@
 #include "sinew/design/methods.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/report/page/page.h"
+#include "sinew/run/folder/files.h"
 
 namespace sinew::cli {
 
 namespace {
 
-constexpr Replaceable design_page{"page of `sinew design`", "such a page", "\"sinew.design_page/"};
-constexpr Replaceable robot_file{"robot file", "a robot file", "format=\"sinew.robot/", ".toml"};
+constexpr run::FileKind design_page{"page of `sinew design`", "such a page",
+                                    "\"sinew.design_page/"};
+constexpr run::FileKind robot_file{"robot file", "a robot file", "format=\"sinew.robot/"};
 
 // Holds the parts of a calculation's help that are not its settings; `out`: the file that it
 // writes, empty: none.
@@ -68,13 +70,13 @@ ExitCode run_design(const DesignOptions<Settings>& options) {
       config::fail({"--report", 0, 0}, "",
                    config::in_quotes(options.report) + ", the name of --out too",
                    "a name of its own, such as page.html");
-    refuse_to_replace(options.report, options.force, design_page);
+    run::refuse_to_overwrite(options.report, options.force, design_page);
   }
   // Only the design of a joint makes a robot file.
   if constexpr (requires { options.settings.base; })
     if (!options.out.empty())
-      refuse_to_replace(options.out, options.force, robot_file,
-                        {options.settings.actuator, options.settings.base});
+      run::refuse_to_overwrite(options.out, options.force, robot_file,
+                               {options.settings.actuator, options.settings.base});
   const design::Result result = design::design(options.settings);
   const Messages messages(options.quiet);
   for (const std::string& warning : result.warnings) messages.warning(warning);

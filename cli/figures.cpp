@@ -174,7 +174,8 @@ ExitCode draw_runs(const FiguresOptions& request) {
 // Becomes the program thesis-figures (cli/thesis/figures.cpp).
 ExitCode draw_thesis(const FiguresOptions& request) {
   const run::FigureFiles files = files_of(request);
-  run::refuse_to_overwrite(std::filesystem::path(request.out) / "index.json", request.force);
+  run::refuse_to_overwrite(std::filesystem::path(request.out) / "index.json", request.force,
+                           run::figures_kind);
   const std::string program = host::find_module("thesis-figures").string();
   if (program.empty())
     throw std::runtime_error(

@@ -21,6 +21,7 @@
 #include "sinew/host/realtime.h"
 #include "sinew/run/bring_up/bring_up.h"
 #include "sinew/run/bring_up/firmware.h"
+#include "sinew/run/bring_up/wires.h"
 #include "sinew/run/card/on_card.h"
 #include "sinew/run/card/speed.h"
 #include "sinew/run/folder/files.h"
@@ -187,7 +188,7 @@ ExitCode flash(const FirmwareOptions& o) {
 }
 
 ExitCode wiring(const FirmwareOptions& o) {
-  run::refuse_to_overwrite(o.out, o.force, {o.robot}, ".svg");
+  run::refuse_to_overwrite(o.out, o.force, run::wiring_kind, {o.robot});
   run::write_file(o.out, run::wiring_on(o.robot, run::firmware_board(o.board)));
   return ok;
 }
@@ -203,7 +204,7 @@ struct FmuOptions {
 ExitCode export_fmu(const FmuOptions& options) {
   const fmu::Fmu made = fmu::make_fmu(options.request);
   const std::string file = options.out.empty() ? made.identifier + ".fmu" : options.out;
-  run::refuse_to_overwrite(file, options.force, {options.request.file}, ".fmu");
+  run::refuse_to_overwrite(file, options.force, run::fmu_kind, {options.request.file});
   run::write_file(file, made.bytes);
   fmt::print("{}", options.json ? fmu::json_of(made, file) : fmu::text_of(made, file));
   return ok;

@@ -28,13 +28,18 @@ namespace sinew::cli {
 
 namespace {
 
-constexpr Replaceable page_file{"page of `sinew identify`", "such a page", "\"sinew.fit/", "",
-                                "another one, or --no-report"};
-constexpr Replaceable parameter_file{"parameter file", "a parameter file", "format=\"sinew.",
-                                     ".toml"};
-constexpr Replaceable plan_file{"plan", "a plan", "#Planof`sinewidentifyplan`", ".csv"};
-constexpr Replaceable template_file{"template of `sinew identify`", "a template",
-                                    "#For`sinewidentify", ".csv"};
+constexpr run::FileKind page_file{
+    .what = "page of `sinew identify`",
+    .name = "such a page",
+    .mark = "\"sinew.fit/",
+    .otherwise = "another one, or --no-report",
+};
+constexpr run::FileKind parameter_file{"parameter file", "a parameter file", "format=\"sinew."};
+constexpr run::FileKind plan_file{"plan", "a plan", "#Planof`sinewidentifyplan`"};
+constexpr run::FileKind template_file{"template of `sinew identify`", "a template",
+                                      "#For`sinewidentify"};
+constexpr run::FileKind timing_file{"table of a valve's timing", "such a table", "0,0,",
+                                    run::FileKind::At::start};
 
 // Options for reading files of measurements.
 struct DataOptions {
@@ -239,16 +244,17 @@ std::string page_of(const ResultOptions& options) {
 }
 
 // Refuses files that exist already, before the work begins.
-void check_outputs(const ResultOptions& options, const Replaceable& out = parameter_file,
+void check_outputs(const ResultOptions& options, const run::FileKind& out = parameter_file,
                    const std::vector<std::string>& inputs = {}) {
   if (const std::string page = page_of(options); !page.empty()) {
     report::require_page(page);
     if (page == options.out)
       config::fail({"--out", 0, 0}, "", config::in_quotes(options.out) + ", the page's name too",
                    "a parameter file, such as mine.toml", "another name, or --no-report");
-    refuse_to_replace(page, options.force, page_file);
+    run::refuse_to_overwrite(page, options.force, page_file);
   }
-  if (!options.out.empty()) refuse_to_replace(options.out, options.force, out, inputs);
+  if (!options.out.empty())
+    run::refuse_to_overwrite(options.out, options.force, out, {inputs.begin(), inputs.end()});
 }
 
 // Writes the files of further muscles next to that of the first one.
@@ -259,7 +265,7 @@ void write_further(const identify::Found& found, const ResultOptions& options) {
     if (suffix.empty()) continue;
     const std::string file =
         out.parent_path() / (out.stem().string() + suffix + out.extension().string());
-    refuse_to_replace(file, options.force, parameter_file);
+    run::refuse_to_overwrite(file, options.force, parameter_file);
     write_output(file, found.file(file, i), options.quiet);
   }
 }
@@ -270,9 +276,9 @@ void check_second_file(const Options<Settings>& options) {
   const std::string& file = options.result.second_file;
   if (file.empty()) return;
   if (std::is_same_v<Settings, identify::JointSettings>)
-    return refuse_to_replace(file, options.result.force, parameter_file);
-  run::refuse_to_overwrite(file, options.result.force);
+    return run::refuse_to_overwrite(file, options.result.force, parameter_file);
   identify::refuse_fitted(sources_of(options.data), "predict_dat", file);
+  run::refuse_to_overwrite(file, options.result.force, timing_file);
 }
 
 // Writes the second file of a method.
@@ -394,7 +400,7 @@ ExitCode run_columns(const ColumnsOptions& options) {
                                   : as_options(identify::text_of(inputs)));
     return ok;
   }
-  refuse_to_replace(options.file, options.force, template_file);
+  run::refuse_to_overwrite(options.file, options.force, template_file);
   write_output(options.file, text, options.quiet);
   return ok;
 }

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 
 #include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/log/replacement.h"
 #include "sinew/recording/source.h"
 #include "sinew/run/folder/files.h"
 
@@ -92,19 +90,6 @@ Pairs pairs_of(const char* option, const std::vector<std::string>& texts, Equals
     out.emplace_back(text.substr(0, at), text.substr(at + 1));
   }
   return out;
-}
-
-void refuse_to_replace(const std::string& path, bool force, const Replaceable& old,
-                       const std::vector<std::string>& inputs) {
-  run::refuse_to_overwrite(path, force, {inputs.begin(), inputs.end()}, old.ending);
-  if (!std::filesystem::exists(path) || log::is_written_directly(path)) return;
-  std::ifstream in(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  std::erase(text, ' ');
-  if (text.find(old.mark) == text.npos)
-    config::fail({path, 0, 0}, "", fmt::format("something that is no {}", old.what),
-                 fmt::format("an unused name, or that of {}", old.name),
-                 std::string(old.otherwise));
 }
 
 void write_output(const std::string& file, const std::string& text, bool quiet) {

@@ -61,20 +61,6 @@ Pairs pairs_of(const char* option, const std::vector<std::string>& texts,
 
 // --- files that are written ---
 
-// A file that --force replaces: one that contains `mark`, blanks not counted. Other files stay,
-// such as measurements of another origin.
-struct Replaceable {
-  std::string_view what, name;  // "page of `sinew identify`", "such a page"
-  std::string_view mark;
-  std::string_view ending = "";  // recommended, ".csv"
-  std::string_view otherwise = "another one";
-};
-
-// Throws config::Error for a file that exists already, before the work begins; with `force` only if
-// the file is not replaceable or one of `inputs`.
-void refuse_to_replace(const std::string& path, bool force, const Replaceable& old,
-                       const std::vector<std::string>& inputs = {});
-
 // Writes a file of this name, if it is not empty, and prints a note.
 void write_output(const std::string& file, const std::string& text, bool quiet);
 

@@ -102,7 +102,8 @@ ExitCode report_study(const ReportOptions& options) {
   fs::path out = options.out;
   if (out.empty()) out = fs::path(options.runs[0]).replace_extension(".html");
   const std::vector<fs::path> files(options.runs.begin(), options.runs.end());
-  run::refuse_to_overwrite(out, options.force, files);
+  constexpr run::FileKind kind{"page of studies", "such a page", "\"sinew.study_page/"};
+  run::refuse_to_overwrite(out, options.force, kind, files);
   return write(out, tune::study_page_of(files), Messages(options.quiet));
 }
 
@@ -111,7 +112,8 @@ ExitCode report_run(const ReportOptions& options) {
   const run::RunFiles recorded = run::run_files(options.runs[0]);
   const fs::path out =
       options.out.empty() ? recorded.log.parent_path() / run::report_name : fs::path(options.out);
-  run::refuse_to_overwrite(out, options.force, {recorded.log, recorded.resolved, options.machine});
+  run::refuse_to_overwrite(out, options.force, run::report_kind,
+                           {recorded.log, recorded.resolved, options.machine});
   return write(out, run::page_of(recorded, options.machine, messages.notices(), options.units),
                messages);
 }
@@ -125,6 +127,11 @@ struct CompareOptions : Flags {
   bool all = false;
 };
 
+constexpr run::FileKind comparison_page{"page of `sinew compare`", "such a page",
+                                        "\"sinew.comparison/"};
+constexpr run::FileKind residual_table{"table of residuals", "such a table", " /",
+                                       run::FileKind::At::first_line};
+
 // Refuses to replace a file without --force, and a run that is read.
 void refuse_outputs(const CompareOptions& options) {
   if (!options.out.empty()) report::require_page(options.out);
@@ -133,8 +140,11 @@ void refuse_outputs(const CompareOptions& options) {
     const run::RunFiles run = run::run_files(named);
     inputs.insert(inputs.end(), {run.log, run.resolved});
   }
-  for (const std::string& out : {options.out, options.residuals})
-    if (!out.empty()) run::refuse_to_overwrite(out, options.force, inputs);
+  run::refuse_same_files({{"--output", options.out}, {"--residuals", options.residuals}});
+  if (!options.out.empty())
+    run::refuse_to_overwrite(options.out, options.force, comparison_page, inputs);
+  if (!options.residuals.empty())
+    run::refuse_to_overwrite(options.residuals, options.force, residual_table, inputs);
 }
 
 ExitCode compare_runs(const CompareOptions& options) {
@@ -203,6 +213,15 @@ void put(const run::RunFiles& run, const ExportOptions& options, signals::Table 
   fmt::print("{}", text);
 }
 
+// Returns the kind of file that is written.
+run::FileKind kind_of(const ExportOptions& options) {
+  if (options.format == "out.dat")
+    return {"out.dat", "an out.dat", "modetimer", run::FileKind::At::start};
+  if (options.format == "ports")
+    return {"table of ports", "such a table", "port0[1]", run::FileKind::At::first_line};
+  return {"table of channels", "such a table", "time[s],/", run::FileKind::At::start};
+}
+
 ExitCode export_run(const ExportOptions& options) {
   const Messages messages(options.quiet);
   if (options.format != "csv" && (!options.channels.empty() || options.derived))
@@ -210,7 +229,8 @@ ExitCode export_run(const ExportOptions& options) {
                  "csv, for --channels and --derived");
   const run::RunFiles run = run::run_files(options.run);
   if (!options.out.empty())
-    run::refuse_to_overwrite(options.out, options.force, {run.log, run.resolved, options.machine});
+    run::refuse_to_overwrite(options.out, options.force, kind_of(options),
+                             {run.log, run.resolved, options.machine});
 
   signals::Table table = log::read(run.log);
   if (!table.complete)
@@ -263,8 +283,7 @@ ExitCode make(const FilmOptions& options) {
     config::fail({"machine", 0, 0}, "", config::in_quotes(options.machine),
                  "no option: each of several runs has its own machine");
   std::vector<std::string> arguments = film_arguments(options);
-  run::refuse_to_overwrite(options.out, options.force, {},
-                           fs::path(options.out).extension().string());
+  run::refuse_to_overwrite(options.out, options.force, run::film_kind(options.out));
   run::require_folder_of(options.out);
   // Reading a long log takes time, so the script first checks options and programs.
   constexpr const char* missing =

@@ -360,8 +360,8 @@ ExitCode analyze_run(const AnalyzeOptions& options) {
   for (const std::string& text : a.summary.warnings) messages.warning(text);
   const std::string json = to_json(a.summary);
   if (!options.out.empty()) {
-    run::refuse_to_overwrite(options.out, options.force, {run.log, options.machine},
-                             run::summary_name);
+    run::refuse_to_overwrite(options.out, options.force, run::summary_kind,
+                             {run.log, options.machine});
     run::write_file(options.out, json);
   }
   if (options.verdicts)

@@ -31,6 +31,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// --- files that are written, besides those of rows ---
+
+constexpr run::FileKind candidates_kind{"table of candidates", "such a table",
+                                        "candidate,generation,feasible,", run::FileKind::At::start};
+constexpr run::FileKind sensitivities_kind{"table of sensitivities", "such a table",
+                                           "figure,range,", run::FileKind::At::start};
+constexpr run::FileKind experiment_kind{"experiment", "an experiment",
+                                        "format=\"sinew.experiment/"};
+
 // --- runs of a sweep ---
 
 // Options of all these commands besides the study.
@@ -139,6 +148,7 @@ ExitCode sweep_all(const SweepOptions& given) {
   const tune::Sweep s = read_sweep();
   tune::check(s);
 
+  run::refuse_same_files({{"--results", options.runs.results}, {"--output", options.out}});
   const std::vector<std::string> headings = tune::headings(s);
   std::optional<tune::TableFile> csv;
   if (!options.out.empty())
@@ -167,10 +177,10 @@ void add_sample(CLI::App& sub, SweepOptions& options) {
 }
 
 // Refuses a file that cannot be written, before the runs begin.
-void require_place(const std::string& file, bool force, const std::vector<fs::path>& inputs,
-                   std::string_view own = "") {
+void require_place(const std::string& file, bool force, const run::FileKind& kind,
+                   const std::vector<fs::path>& inputs) {
   if (file.empty()) return;
-  run::refuse_to_overwrite(file, force, inputs, own);
+  run::refuse_to_overwrite(file, force, kind, inputs);
   run::require_folder_of(file);
 }
 
@@ -238,8 +248,10 @@ ExitCode tune_all(const TuneOptions& given) {
   const Messages messages(options.quiet);
   const tune::Tuning tuning = read_tuning();
   const std::vector<fs::path> inputs{options.file, tuning.runs.experiment};
-  require_place(options.out, options.force, inputs);
-  require_place(options.best, options.force, inputs, ".toml");
+  run::refuse_same_files(
+      {{"--results", options.runs.results}, {"--output", options.out}, {"--best", options.best}});
+  require_place(options.out, options.force, candidates_kind, inputs);
+  require_place(options.best, options.force, experiment_kind, inputs);
 
   const tune::Tuned tuned = run_tuning(tuning, options, master, messages);
   const auto print = [&] {
@@ -261,7 +273,7 @@ ExitCode tune_all(const TuneOptions& given) {
   std::vector<std::vector<std::string>> rows;
   for (const tune::Candidate& c : tuned.candidates) rows.push_back(tune::candidate_cells(c));
   tune::write_table(options.out, tune::candidate_headings(tuning), rows, options.force,
-                    {options.file});
+                    {options.file}, candidates_kind);
   if (!options.best.empty())
     run::write_file(
         options.best,
@@ -296,7 +308,9 @@ ExitCode print_sensitivity(const SensitivityOptions& options) {
   const tune::Sweep runs = runs_of(options, design);
   tune::check(runs);
   const std::vector<fs::path> inputs{options.study.experiment};
-  require_place(options.out, options.force, inputs);
+  run::refuse_same_files(
+      {{"--results", options.run.results}, {"--output", options.out}, {"--runs", options.runs}});
+  require_place(options.out, options.force, sensitivities_kind, inputs);
   std::optional<tune::TableFile> csv;
   if (!options.runs.empty()) csv.emplace(options.runs, tune::headings(runs), options.force, inputs);
 
@@ -307,7 +321,8 @@ ExitCode print_sensitivity(const SensitivityOptions& options) {
   const auto all = tune::sensitivities(design, runs, rows);
   // Files come before what is printed: a reader that ends early ends the program.
   tune::write_table(options.out, tune::sensitivity_headings(design.method),
-                    tune::sensitivity_rows(design, runs, all), options.force, inputs);
+                    tune::sensitivity_rows(design, runs, all), options.force, inputs,
+                    sensitivities_kind);
   if (!options.out.empty()) messages.note(options.out);
   if (options.json)
     fmt::print("{}", tune::sensitivity_json(design, runs, all));

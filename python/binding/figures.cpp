@@ -84,7 +84,7 @@ std::string film_page(const Names& runs, const py::object& path, const std::stri
     throw py::value_error(
         "align: found one run; expected several, which are aligned with each other");
   const std::string file = path_of(path);
-  run::refuse_to_overwrite(file, force, {}, std::filesystem::path(file).extension().string());
+  run::refuse_to_overwrite(file, force, run::film_kind(file));
   run::require_folder_of(file);
   const py::gil_scoped_release unlocked;
   return run::film_page(runs, align_options);

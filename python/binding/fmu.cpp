@@ -32,7 +32,7 @@ py::object export_fmu(const py::object& file, const py::object& path, const std:
   {
     const py::gil_scoped_release unlocked;
     made = fmu::make_fmu(request);
-    run::refuse_to_overwrite(out, force, {request.file}, ".fmu");
+    run::refuse_to_overwrite(out, force, run::fmu_kind, {request.file});
     run::write_file(out, made.bytes);
   }
   const py::object about = parsed(fmu::json_of(made, ""));

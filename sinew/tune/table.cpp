@@ -41,9 +41,10 @@ std::string json_of(const std::vector<std::string>& headings, const std::vector<
 }
 
 TableFile::TableFile(const std::filesystem::path& file, std::vector<std::string> headings,
-                     bool force, const std::vector<std::filesystem::path>& inputs)
+                     bool force, const std::vector<std::filesystem::path>& inputs,
+                     const run::FileKind& kind)
     : name_(file), headings_(std::move(headings)) {
-  run::refuse_to_overwrite(name_, force, inputs);
+  run::refuse_to_overwrite(name_, force, kind, inputs);
   run::require_folder_of(name_);
   log::require_free_part(name_);
 }
@@ -84,9 +85,9 @@ void TableFile::take_place() {
 
 void write_table(const std::string& file, const std::vector<std::string>& headings,
                  const std::vector<std::vector<std::string>>& rows, bool force,
-                 const std::vector<std::filesystem::path>& inputs) {
+                 const std::vector<std::filesystem::path>& inputs, const run::FileKind& kind) {
   if (file.empty()) return;
-  TableFile csv(file, headings, force, inputs);
+  TableFile csv(file, headings, force, inputs, kind);
   for (const std::vector<std::string>& row : rows) csv.add(row);
   csv.throw_failure();
   csv.take_place();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sinew/log/replacement.h"
+#include "sinew/run/folder/files.h"
 #include "sinew/tune/sweep.h"
 
 namespace sinew::tune {
@@ -20,14 +21,19 @@ std::string csv_line(const std::vector<std::string>& cells);
 // Returns the table in format sinew.sweep/1, an object per row; numbers and flags are not quoted.
 std::string json_of(const std::vector<std::string>& headings, const std::vector<Row>& rows);
 
+// Kind of a table's file, whose last column is the status of a row.
+inline constexpr run::FileKind table_kind{"table of runs", "such a table", "status",
+                                          run::FileKind::At::end_of_first_line};
+
 // The file of a table. Rows are written at once into a temporary file next to the final one,
 // so that they survive if the sweep is killed. It is created with the first row: a refused sweep
 // leaves no file.
 class TableFile {
  public:
-  // Throws config::Error if `file` exists and `force` is false, or if it is one of `inputs`.
+  // Throws config::Error like run::refuse_to_overwrite().
   TableFile(const std::filesystem::path& file, std::vector<std::string> headings, bool force,
-            const std::vector<std::filesystem::path>& inputs = {});
+            const std::vector<std::filesystem::path>& inputs = {},
+            const run::FileKind& kind = table_kind);
 
   // Passes each line to `print` instead of a file.
   TableFile(std::vector<std::string> headings, std::function<void(std::string_view)> print);
@@ -57,7 +63,7 @@ class TableFile {
 // Writes all rows to a file; nothing if it has no name. Throws like TableFile.
 void write_table(const std::string& file, const std::vector<std::string>& headings,
                  const std::vector<std::vector<std::string>>& rows, bool force,
-                 const std::vector<std::filesystem::path>& inputs = {});
+                 const std::vector<std::filesystem::path>& inputs, const run::FileKind& kind);
 
 // Returns warnings about rows without figures, and about trolleys that reached their track's end.
 std::vector<std::string> warnings(const std::vector<Row>& rows);

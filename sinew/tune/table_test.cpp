@@ -37,14 +37,16 @@ TEST_F(TableFileTest, NothingIsWrittenBeforeTheFirstRow) {
 }
 
 TEST_F(TableFileTest, RowsStandBesideUntilTheTableIsWhole) {
-  std::ofstream(file_) << "old";
+  std::ofstream(file_) << "mine";
+  EXPECT_THROW(TableFile(file_, headings_, true), config::Error);
+  std::ofstream(file_) << "old,status";
   EXPECT_THROW(TableFile(file_, headings_, false), config::Error);
   EXPECT_THROW(TableFile(file_, headings_, true, {file_}), config::Error);
 
   TableFile table(file_, headings_, true);
   EXPECT_TRUE(table.add({"1", "ok"}));
   EXPECT_TRUE(table.add({"2", "ok"}));
-  EXPECT_EQ(text_of(file_), "old");
+  EXPECT_EQ(text_of(file_), "old,status");
   EXPECT_EQ(text_of(table.part()), "a,status\n1,ok\n2,ok\n");
   EXPECT_NO_THROW(table.throw_failure());
   table.take_place();

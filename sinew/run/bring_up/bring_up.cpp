@@ -566,6 +566,18 @@ config::Node joints_of(const robot::Robot& robot, std::string_view key, bool ang
   return out;
 }
 
+// Refuses a folder with a file that the bring-up would replace and that is none of its own. Its
+// robot.toml is never there without its list of steps.
+void refuse_other_files(const fs::path& folder) {
+  constexpr FileKind bench{"experiment of `sinew bring-up`", "such a file",
+                           "source=\"sinewbring-up\"", FileKind::At::anywhere, "another folder"};
+  refuse_to_overwrite(folder / "bench.toml", true, bench);
+  refuse_to_overwrite(folder / "wiring.svg", true, wiring_kind);
+  if (fs::exists(folder / "robot.toml") && !fs::exists(folder / "bring-up.json"))
+    refuse(folder / "robot.toml", "a file that is not of a bring-up", "a folder without one",
+           "another folder");
+}
+
 }  // namespace
 
 experiment::Experiment bench_of(const std::string& robot, const fs::path& folder,
@@ -593,6 +605,7 @@ experiment::Experiment bench_of(const std::string& robot, const fs::path& folder
   root.put(
       config::make_text("robot", fs::weakly_canonical(robot).lexically_relative(there).string()));
   make_folders(there);
+  refuse_other_files(there);
   write_file(there / "bench.toml", config::to_toml(root));
   return experiment::load((there / "bench.toml").string(), sets);
 }

@@ -82,6 +82,18 @@ void require_form(const FirmwareBoard& board, const fs::path& file) {
                fmt::format("\"{}\", which is what {} is loaded with", board.form, board.name));
 }
 
+// Bare memory has no mark.
+FileKind kind_of(const fs::path& file) {
+  constexpr auto start = FileKind::At::start;
+  constexpr std::string_view what = "firmware of this form", name = "such a file";
+  if (file.extension() == ".bin") return {what, name, "", start};
+  return {what, name,
+          file.extension() == ".hex" ? ":"
+                                     : "\x7f"
+                                       "ELF",
+          start};
+}
+
 bool has_program(const std::string& name) {
   return std::system(("command -v " + name + " > /dev/null 2>&1").c_str()) == 0;
 }
@@ -143,7 +155,7 @@ void build_firmware(const fs::path& sources, const FirmwareBoard& board, const f
     config::fail({sources.string(), 0, 0}, "", "no sources of Sinew",
                  "the folder that they were cloned into");
   require_form(board, out);
-  refuse_to_overwrite(out, force, {}, out.extension().string());
+  refuse_to_overwrite(out, force, kind_of(out));
   require_folder_of(out);
   for (const char* tool : {"cmake", "ninja", "arm-none-eabi-g++"})
     if (!has_program(tool))

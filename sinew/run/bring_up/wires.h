@@ -7,6 +7,7 @@
 #include "sinew/control/setup/boards.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/run/bring_up/pins.h"
+#include "sinew/run/folder/files.h"
 
 namespace sinew::run {
 
@@ -28,6 +29,10 @@ std::vector<Wire> valve_wires(const experiment::Experiment& e, const control::Bo
                               const Pins* pins);
 
 // Drawing of the wiring.
+
+// Kind of the drawing's file.
+inline constexpr FileKind wiring_kind{"drawing of `sinew firmware wiring`", "such a drawing",
+                                      "valves,eachbehindadriver"};
 
 // Returns an SVG of a board with its sensors on the left, its valves on the right, the supply and
 // its dump valve below. It shows channels and bits, the terminals' pins if the robot has [wiring],

@@ -169,12 +169,14 @@ std::vector<std::string> write_all(const fs::path& folder, const report::Gallery
 }
 
 // Returns the figures of an earlier call, to be replaced. Throws if they exist and `force` is
-// false.
+// false, or if another file has the name of a new figure.
 std::vector<std::string> replaceable(const fs::path& folder, const std::string& index, bool force) {
   std::vector<std::string> old = figures_in(folder);
-  refuse_to_overwrite(folder / index_name, force);
+  refuse_to_overwrite(folder / index_name, force, figures_kind);
   for (const std::string& name : files_of(Json::parse(index)))
-    refuse_to_overwrite(folder / name, force);
+    if (fs::exists(folder / name) && std::ranges::find(old, name) == old.end())
+      refuse(folder / name, "a file that is none of the figures of " + std::string(index_name),
+             "an unused name", "another folder, or to move that file elsewhere");
   return old;
 }
 
@@ -209,7 +211,7 @@ std::string write_figures(const fs::path& folder, report::Gallery gallery,
   const std::string index = report::index_json(gallery);
 
   finish_replacing(folder);
-  refuse_to_overwrite(folder / index_name, options.force);
+  refuse_to_overwrite(folder / index_name, options.force, figures_kind);
   OutputFolder out(folder);
   const Stage stage(out);
   const std::vector<std::string> replaced = replaceable(folder, index, options.force);

@@ -10,6 +10,7 @@
 #include "sinew/report/figures/gallery.h"
 #include "sinew/report/figures/gnuplot.h"
 #include "sinew/report/figures/labels.h"
+#include "sinew/run/folder/files.h"
 #include "sinew/run/folder/notices.h"
 #include "sinew/units/shown.h"
 
@@ -21,6 +22,10 @@ struct FigureFiles {
   bool must_draw = false;      // the pictures were explicitly requested
   bool force = false;
 };
+
+// Kind of index.json, which lists the files that may be replaced.
+inline constexpr FileKind figures_kind{"index of figures", "such an index",
+                                       "{\"format\":\"sinew.figures/", FileKind::At::start};
 
 // Writes <sheet>.csv, <figure>.gp, index.json and index.html, and draws the pictures with gnuplot.
 // Refuses to replace files unless `force` is set; then the files of an earlier index.json, and no

@@ -8,8 +8,9 @@
 #include <fstream>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "sinew/log/file.h"
-#include "sinew/run/folder/run_folder.h"
 #include "sinew/units/shell.h"
 
 namespace sinew::run {
@@ -18,30 +19,67 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Returns whether the file is a log, a parameter file or a file of a run, which no page, table or
-// summary may replace.
-bool is_of_another_kind(const fs::path& file, std::string_view own) {
-  if (file.filename() == own || file.extension() == own) return false;
-  return file.extension() == ".toml" || file.extension() == ".mcap" ||
-         (file.filename() == summary_name && fs::exists(file.parent_path() / log_name));
+// Returns whether the text begins with the mark. Blanks are skipped where the mark has none.
+bool begins_with(std::string_view text, std::string_view mark) {
+  std::size_t found = 0;
+  for (const char c : text) {
+    if (found == mark.size()) break;
+    const bool is_blank = c == ' ' || c == '\t' || c == '\r' || c == '\n';
+    if (is_blank && mark[found] != c) continue;
+    if (c != mark[found]) return false;
+    ++found;
+  }
+  return found == mark.size();
+}
+
+bool has_mark(std::string_view text, const FileKind& kind) {
+  using At = FileKind::At;
+  if (kind.mark.empty()) return true;
+  if (kind.at == At::start) return begins_with(text, kind.mark);
+  if (kind.at != At::anywhere) text = text.substr(0, text.find_first_of("\r\n"));
+  if (kind.at == At::end_of_first_line) return text.ends_with(kind.mark);
+  for (std::size_t at = text.find(kind.mark[0]); at != text.npos;
+       at = text.find(kind.mark[0], at + 1))
+    if (begins_with(text.substr(at), kind.mark)) return true;
+  return false;
 }
 
 }  // namespace
 
-void refuse_to_overwrite(const fs::path& file, bool force, const std::vector<fs::path>& inputs,
-                         std::string_view own) {
+bool is_of_kind(const fs::path& file, const FileKind& kind) {
+  return fs::file_size(file) == 0 || has_mark(log::Mapping(file).bytes(), kind);
+}
+
+void refuse_to_overwrite(const fs::path& file, bool force, const FileKind& kind,
+                         const std::vector<fs::path>& inputs) {
   if (fs::is_directory(file))
     refuse(file, "a folder", "the name of a file", "a name inside that folder");
+  if (log::is_written_directly(file) || !fs::exists(file)) return;
   std::error_code none;
-  const bool direct = log::is_written_directly(file);
   for (const fs::path& input : inputs)
-    if (!direct && fs::equivalent(file, input, none))
+    if (fs::equivalent(file, input, none))
       refuse(file, "what this command reads", "a name for what it writes", "another name");
-  if (!direct && fs::exists(file) && is_of_another_kind(fs::weakly_canonical(file), own))
-    refuse(file, "a file of another kind, which not even force=true replaces",
-           "a name for what this command writes", "another name, or to remove it first");
-  if (force || !fs::exists(file) || log::is_written_directly(file)) return;
-  refuse(file, "a file", "an unused name", "another one, or force=true to replace it");
+  if (!is_of_kind(file, kind))
+    refuse(file, fmt::format("something that is no {}", kind.what),
+           fmt::format("an unused name, or that of {}", kind.name), std::string(kind.otherwise));
+  if (!force) refuse(file, "a file", "an unused name", "another one, or force=true to replace it");
+}
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code none;
+  return fs::equivalent(a, b, none) ||
+         fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
+}
+
+void refuse_same_files(const std::vector<std::pair<std::string_view, fs::path>>& files) {
+  for (auto a = files.begin(); a != files.end(); ++a)
+    for (auto b = files.begin(); b != a; ++b)
+      if (!a->second.empty() && !b->second.empty() && !log::is_written_directly(a->second) &&
+          is_same_file(a->second, b->second))
+        config::fail(
+            {std::string(a->first), 0, 0}, "",
+            fmt::format("{}, the file of {} too", config::in_quotes(a->second.string()), b->first),
+            "a file of its own", "another name");
 }
 
 void require_folder_of(const fs::path& file) {

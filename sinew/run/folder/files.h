@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
@@ -12,13 +13,36 @@
 
 namespace sinew::run {
 
-// Throws config::Error if the file exists and `force` is false. Throws even with `force` if the
-// file is one of `inputs`, a log, a parameter file or a run's summary. `own` is the name or
-// extension of the files that the caller itself writes: "summary.json", ".toml". Pipes and devices
-// are always accepted.
-void refuse_to_overwrite(const std::filesystem::path& file, bool force,
-                         const std::vector<std::filesystem::path>& inputs = {},
-                         std::string_view own = "");
+// Kind of file that a command writes. `force` replaces files of this kind only: files of another
+// kind were made by the user or by another program.
+struct FileKind {
+  enum class At { anywhere, start, first_line, end_of_first_line };
+
+  std::string_view what, name;  // "page of `sinew identify`", "such a page"
+  std::string_view mark;        // text that each such file has; empty: any text. Blanks of the
+                                // file are skipped where the mark has none
+  At at = At::anywhere;         // place of the mark
+  std::string_view otherwise = "another one";  // what to do if the file is of another kind
+};
+
+// Kind of an FMU, which the program and the Python package write.
+inline constexpr FileKind fmu_kind{"FMU", "an FMU", "modelDescription.xml"};
+
+// Returns whether the file has the mark, or is empty.
+bool is_of_kind(const std::filesystem::path& file, const FileKind& kind);
+
+// Throws config::Error if the file exists and is not of this kind, if it is one of `inputs`, or if
+// it exists and `force` is false. Pipes and devices are always accepted.
+void refuse_to_overwrite(const std::filesystem::path& file, bool force, const FileKind& kind,
+                         const std::vector<std::filesystem::path>& inputs = {});
+
+// Returns whether both paths are those of one file, which need not exist.
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
+// Throws config::Error if two of the files that a command writes are the same. `files` are options
+// with their files, of which empty ones are left out.
+void refuse_same_files(
+    const std::vector<std::pair<std::string_view, std::filesystem::path>>& files);
 
 // Throws config::Error if the folder that is to contain the file is missing, and log::Error if it
 // may not be written to.

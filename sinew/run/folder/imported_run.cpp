@@ -165,14 +165,20 @@ int whole(std::size_t count) {
       std::min(count, static_cast<std::size_t>(std::numeric_limits<int>::max())));
 }
 
+// Returns the files that an import reads.
+std::vector<std::filesystem::path> inputs_of(const ImportRequest& request) {
+  std::vector<std::filesystem::path> out(request.files.begin(), request.files.end());
+  out.insert(out.end(), {request.experiment, request.mapping_file});
+  return out;
+}
+
 // Refuses early what would otherwise be refused after the work.
 void refuse_early(const ImportRequest& request) {
   if (request.files.empty()) config::fail({"files", 0, 0}, "", "none", "a recording");
   if (request.save_mapping.empty()) return;
   require_folder_of(request.save_mapping);
-  std::vector<std::filesystem::path> inputs(request.files.begin(), request.files.end());
-  inputs.emplace_back(request.experiment);
-  refuse_to_overwrite(request.save_mapping, request.force, inputs, ".toml");
+  constexpr FileKind mapping{"mapping of `sinew import`", "a mapping", "format=\"sinew.mapping/"};
+  refuse_to_overwrite(request.save_mapping, request.force, mapping, inputs_of(request));
 }
 
 void save_mapping(const ImportRequest& request, const recording::AssembledRecording& of) {
@@ -235,7 +241,8 @@ struct Keeping {
 
 void keep_files(const analysis::Analysis& a, const Keeping& what, StoredRun& kept) {
   const signals::Table& table = a.table;
-  OutputFolder folder = run_folder(what.where.folder, what.where.force, what.name);
+  OutputFolder folder =
+      run_folder(what.where.folder, what.where.force, what.name, what.where.inputs);
   try {
     kept.folder = folder.path();
     write_into(folder, resolved_name, what.resolved);
@@ -344,8 +351,9 @@ StoredRun import_run(const ImportRequest& request, const Notices& notices) {
   report(read_in, filled, notices);
   if (!e.stand && !read_in.table.find("/plan/phase") && e.robot.legs.empty())
     notices.note("no plan in the recording: figures of its phases and steps are absent");
-  auto kept = store_imported(read_in.table, e, facts_of(read_in), recording::text_of(read_in.used),
-                             {.folder = request.folder, .force = request.force}, notices);
+  auto kept = store_imported(
+      read_in.table, e, facts_of(read_in), recording::text_of(read_in.used),
+      {.folder = request.folder, .force = request.force, .inputs = inputs_of(request)}, notices);
   save_mapping(request, read_in);
   return kept;
 }

@@ -104,6 +104,14 @@ report::Comparison compare_runs(const std::vector<std::string>& runs,
   return comparison;
 }
 
+FileKind film_kind(const std::filesystem::path& file) {
+  constexpr auto start = FileKind::At::start;
+  if (file.extension() == ".png") return {"PNG picture", "a picture", "\x89PNG", start};
+  if (file.extension() == ".gif") return {"GIF film", "a film", "GIF8", start};
+  if (file.extension() == ".webm") return {"WebM film", "a film", "\x1a\x45\xdf\xa3", start};
+  return {"MP4 film", "a film", "ftyp"};
+}
+
 std::string film_page(const std::vector<std::string>& runs,
                       const report::AlignOptions& align_options, const std::string& machine,
                       const Notices& notices) {

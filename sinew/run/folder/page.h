@@ -2,6 +2,7 @@
 // report`, `run` and `import`; comparisons of several runs, and the page of a film.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,6 @@
 #include "sinew/run/folder/run_folder.h"
 
 namespace sinew::run {
-
-inline constexpr std::string_view report_name = "report.html";
 
 // Writes the page of a run of that name next to its log, from the logged channels: the same bytes
 // as page_of() returns for the folder. `values` are those of resolved.toml; `units` are the initial
@@ -38,6 +37,9 @@ report::Comparison compare_runs(const std::vector<std::string>& runs,
                                 const report::AlignOptions& align_options,
                                 const std::vector<std::string>& channels = {},
                                 const Notices& notices = {});
+
+// Returns the kind of a film's file, by the ending of its name.
+FileKind film_kind(const std::filesystem::path& file);
 
 // Returns the page whose replay a film shows: that of one run, as page_of() returns it, or the
 // comparison of several. Throws as these do.

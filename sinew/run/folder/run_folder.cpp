@@ -14,15 +14,26 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The only files that force=true may replace, with those that a killed process leaves.
-constexpr std::string_view known_files[] = {log_name,     "log.mcap.tmp", resolved_name,
-                                            summary_name, measured_name,  mapping_name,
-                                            "report.html"};
+// The only files that force=true may replace, if they are those of a run.
+struct KnownFile {
+  std::string_view name, mark;
+  FileKind::At at = FileKind::At::anywhere;
+  bool makes_a_run = true;  // whether a folder with this file alone contains a run
+};
+constexpr KnownFile known_files[] = {
+    {log_name, "sinew.run"},
+    {resolved_name, "format=\"sinew.experiment/"},
+    {summary_name, summary_kind.mark, summary_kind.at},
+    {measured_name, "time[s],", FileKind::At::start, false},
+    {mapping_name, "format=\"sinew.mapping/", FileKind::At::anywhere, false},
+    {report_name, report_kind.mark, report_kind.at, false},
+};
 
+// Returns the names of these files, with those that a killed process leaves.
 std::vector<std::string> known_names() {
-  std::vector<std::string> names;
-  for (const std::string_view name : known_files)
-    names.insert(names.end(), {std::string(name), log::hidden_name(name)});
+  std::vector<std::string> names{std::string(log_name) + ".tmp"};
+  for (const KnownFile& file : known_files)
+    names.insert(names.end(), {std::string(file.name), log::hidden_name(file.name)});
   return names;
 }
 
@@ -49,11 +60,22 @@ OutputFolder next_run_folder(const std::string& experiment) {
   }
 }
 
-bool holds_a_run(const std::vector<std::string>& names) {
-  const std::vector<std::string> known = known_names();
-  return std::ranges::any_of(names, [&](const std::string& name) {
-    return name == unfinished_name || std::ranges::find(known, name) != known.end();
-  });
+// Returns whether the folder contains a run. Throws config::Error if a file has the name of one of
+// a run but is not that.
+bool holds_a_run(const fs::path& folder, const std::vector<fs::path>& inputs) {
+  const bool is_run = fs::exists(folder / unfinished_name) ||
+                      std::ranges::any_of(known_files, [&](const KnownFile& file) {
+                        return file.makes_a_run && fs::exists(folder / file.name);
+                      });
+  for (const auto& [name, mark, at, makes_a_run] : known_files) {
+    const FileKind kind{"file of a run", "such a file", mark, at,
+                        "another folder, or to move that file elsewhere"};
+    refuse_to_overwrite(folder / name, true, kind, inputs);
+    if (!is_run && fs::exists(folder / name))
+      refuse(folder / name, "a file without a run", "an empty folder, or that of a run",
+             std::string(kind.otherwise));
+  }
+  return is_run;
 }
 
 // Removes the files of an earlier incomplete run, and no others, before the next one.
@@ -69,7 +91,8 @@ void clear_unfinished(const fs::path& folder) {
 
 }  // namespace
 
-OutputFolder run_folder(const std::string& path, bool force, const std::string& experiment) {
+OutputFolder run_folder(const std::string& path, bool force, const std::string& experiment,
+                        const std::vector<fs::path>& inputs) {
   if (path.empty()) return next_run_folder(experiment);
   const fs::path folder = path;
   if (fs::exists(folder) && !fs::is_directory(folder))
@@ -83,7 +106,7 @@ OutputFolder run_folder(const std::string& path, bool force, const std::string& 
     refuse(folder, fmt::format("{}", fmt::join(names, ", ")), "an empty folder",
            "another one, or force=true to replace the run in it");
   }
-  if (!holds_a_run(names)) return out;
+  if (!holds_a_run(folder, inputs)) return out;
   clear_unfinished(folder / unfinished_name);
   out.stage(std::string(unfinished_name));
   return out;

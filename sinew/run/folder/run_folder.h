@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sinew/run/folder/files.h"
 
@@ -18,17 +19,26 @@ inline constexpr std::string_view mapping_name = "mapping.toml";     // for an i
 inline constexpr std::string_view fault_log_name = "fault-log.csv";  // as stored by a board
 inline constexpr std::string_view figures_name = "figures";          // a folder
 
+inline constexpr std::string_view report_name = "report.html";
+
+// Kinds of a run's files that other commands write too.
+inline constexpr FileKind summary_kind{"summary of a run", "such a summary",
+                                       "{\"format\":\"sinew.summary/", FileKind::At::start};
+inline constexpr FileKind report_kind{"page of a run", "such a page", "\"format\":\"sinew.report/"};
+
 inline constexpr std::string_view unfinished_name = "unfinished";  // a folder: the next run, until
                                                                    // complete
 
 // Returns the folder of a run, locked for this process. `path` is created if it is missing; a
-// folder that is not empty is refused unless `force` is set. If it contains a run, the new one is
-// written into unfinished/ within it until commit_run().
+// folder that is not empty is refused unless `force` is set. Even then it is refused if a file that
+// the run would replace is not that of a run, or is one of `inputs`. If the folder contains a run,
+// the new one is written into unfinished/ within it until commit_run().
 //
 // An empty `path` selects runs/<experiment>/<n> with the lowest n above all existing ones. A
 // number is never used twice while its folder exists, even if several runs start at once. Throws
 // config::Error for a folder that cannot be created, is refused, or is locked by another process.
-OutputFolder run_folder(const std::string& path, bool force, const std::string& experiment);
+OutputFolder run_folder(const std::string& path, bool force, const std::string& experiment,
+                        const std::vector<std::filesystem::path>& inputs = {});
 
 // Completes the run: it replaces the files of an earlier one, and no others. Throws config::Error
 // if a file cannot be moved to its place; the next process that opens the folder completes the

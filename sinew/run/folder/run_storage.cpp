@@ -42,7 +42,8 @@ RunStorage::RunStorage(RunRequest request, Notices notices)
   if (!place_->who().empty()) notices_.note("board: " + place_->who());
   for (const std::string& line : place_->messages()) notices_.note(line);
   resolve();
-  folder_.emplace(run_folder(request_.folder, request_.force, experiment_.name));
+  request_.inputs.emplace_back(request_.experiment);
+  folder_.emplace(run_folder(request_.folder, request_.force, experiment_.name, request_.inputs));
   if (!experiment_.log.enabled) return;
   write_into(*folder_, resolved_name, resolved_);
   log_.emplace(folder_->work() / log_name, experiment_.name, experiment_.seed, resolved_, logged_);

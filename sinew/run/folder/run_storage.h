@@ -32,7 +32,8 @@ struct RunRequest {
                                    // set
   std::string port;                // destination of the run (place.h); empty: simulation
   bool clear_fault = false;        // confirms that a board's fault has been examined
-  const std::atomic<bool>* stop = nullptr;  // true: ends the run, and waiting for a board
+  std::vector<std::filesystem::path> inputs;  // further files that are read and not replaced
+  const std::atomic<bool>* stop = nullptr;    // true: ends the run, and waiting for a board
 };
 
 // The files and figures of a completed run.

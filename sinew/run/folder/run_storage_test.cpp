@@ -116,16 +116,55 @@ TEST_F(KeptRunTest, FiguresOfARunAreListedInTheirIndex) {
 }
 
 TEST_F(KeptRunTest, FilesOfAnotherKindAreNotReplacedEvenByForce) {
-  for (const char* name : {"robot.toml", "log.mcap"}) {
+  constexpr FileKind page{"page", "a page", "\"format\":\"page/"};
+  for (const char* name : {"robot.toml", "log.mcap", "page.html"}) {
     std::ofstream(root_ / name) << "mine";
-    EXPECT_THROW(refuse_to_overwrite(root_ / name, true), config::Error) << name;
+    EXPECT_THROW(refuse_to_overwrite(root_ / name, true, page), config::Error) << name;
   }
-  EXPECT_NO_THROW(refuse_to_overwrite(root_ / "robot.toml", true, {}, ".toml"));
-  std::ofstream(root_ / "page.html") << "mine";
-  EXPECT_THROW(refuse_to_overwrite(root_ / "page.html", false), config::Error);
-  EXPECT_THROW(refuse_to_overwrite(root_ / "page.html", true, {root_ / "page.html"}),
+  std::ofstream(root_ / "empty.html");
+  EXPECT_NO_THROW(refuse_to_overwrite(root_ / "empty.html", true, page));
+
+  std::ofstream(root_ / "page.html") << "<html>{ \"format\": \"page/1\" }";
+  EXPECT_THROW(refuse_to_overwrite(root_ / "page.html", false, page), config::Error);
+  EXPECT_THROW(refuse_to_overwrite(root_ / "page.html", true, page, {root_ / "page.html"}),
                config::Error);
-  EXPECT_NO_THROW(refuse_to_overwrite(root_ / "page.html", true));
+  EXPECT_NO_THROW(refuse_to_overwrite(root_ / "page.html", true, page));
+}
+
+TEST_F(KeptRunTest, AMarkIsSearchedAtItsPlace) {
+  std::ofstream(root_ / "t.csv") << "time [s],a /b,status\n1,2,last\n";
+  using At = FileKind::At;
+  const auto is = [&](std::string_view mark, At at) {
+    return is_of_kind(root_ / "t.csv", {"table", "a table", mark, at});
+  };
+  EXPECT_TRUE(is("time[s],", At::start));
+  EXPECT_FALSE(is("a /b", At::start));
+  EXPECT_TRUE(is(" /b", At::first_line));
+  EXPECT_FALSE(is("last", At::first_line));
+  EXPECT_TRUE(is("status", At::end_of_first_line));
+  EXPECT_FALSE(is("last", At::end_of_first_line));
+  EXPECT_TRUE(is("last", At::anywhere));
+}
+
+TEST_F(KeptRunTest, AFolderWithAnotherFileOfARunsNameIsRefused) {
+  const fs::path folder = root_ / "lab", file = folder / measured_name;
+  fs::create_directories(folder);
+  std::ofstream(file) << "time [s],force [N]\n0,1\n";
+  RunRequest again = request("lab");
+  again.force = true;
+  EXPECT_THROW((void)run_and_store(again), std::exception);
+  EXPECT_EQ(text_of(file), "time [s],force [N]\n0,1\n");
+
+  // In the folder of a run, too, and where the run reads it.
+  fs::remove(file);
+  (void)run_and_store(again);
+  std::ofstream(folder / summary_name) << "mine";
+  EXPECT_THROW((void)run_and_store(again), std::exception);
+  EXPECT_EQ(text_of(folder / summary_name), "mine");
+  fs::remove(folder / summary_name);
+  again.experiment = (folder / resolved_name).string();
+  EXPECT_THROW((void)run_and_store(again), std::exception);
+  EXPECT_TRUE(fs::exists(folder / resolved_name));
 }
 
 }  // namespace

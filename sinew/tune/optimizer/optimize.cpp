@@ -50,6 +50,8 @@ Tuned optimize_and_store(const Tuning& tuning, const std::filesystem::path& file
   results.expect(points(tuning.runs));
   TuneOptions own = options.tune;
   own.runs.known = results.rows();
+  // The file of a tuning with more generations is not made smaller.
+  std::erase_if(own.runs.known, [&](const Row& row) { return row.point >= points(tuning.runs); });
   if (!own.runs.known.empty())
     options.notices.note(fmt::format("{}: {} of {} runs are there", file.string(),
                                      own.runs.known.size(), points(tuning.runs)));

@@ -591,6 +591,7 @@ void Results::add_candidates(const std::vector<CandidateRow>& candidates) {
 }
 
 void Results::expect(std::size_t points) {
+  if (points <= study_of(*database_, file_).points) return;
   all_or_none([&] {
     Statement update(*database_, "UPDATE study SET value = ?1 WHERE key = 'points'");
     update.bind(std::to_string(points)).to_the_end();
