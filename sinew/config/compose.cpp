@@ -37,6 +37,10 @@ Node load(const std::string& path) {
   check_format(own);
   const Node* base_entry = own.find("base");
   if (!base_entry) return own;
+  std::error_code none;
+  if (fs::equivalent(path, file_of(*base_entry, "base"), none))
+    fail(base_entry->where, "base", in_quotes(base_entry->text) + ", this file itself",
+         "another file, whose values this one replaces");
 
   Node base = parse_file(file_of(*base_entry, "base"));
   check_format(base);
@@ -342,6 +346,8 @@ void apply_set(Node& root, std::string_view set) {
     fail(set_location(), "", in_quotes(set), "key=value",
          "\"muscle.hip_flexor.mount_length=3.2 in\"");
   }
+  if (std::ranges::count(key, '.') > 100)
+    fail(set_location(), "", in_quotes(key), "a key of at most 100 parts");
   Node* table = &root;
   std::string_view rest = key;
   for (std::size_t dot; (dot = rest.find('.')) != rest.npos; rest.remove_prefix(dot + 1)) {

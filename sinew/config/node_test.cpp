@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sinew/config/compose.h"
 #include "sinew/config/utf8.h"
 
 namespace sinew::config::node_test {
@@ -82,6 +83,40 @@ TEST(Node, MergingGoesIntoTablesAndReplacesValues) {
   EXPECT_EQ(keys_of(t), (std::vector<std::string_view>{"a", "b", "c"}));
   EXPECT_EQ(t.find("b")->find("source"), nullptr);  // the old source does not apply to 2 m
   EXPECT_EQ(t.find("b")->where.file, "own.toml");
+}
+
+std::string times(int n, const std::string& text) {
+  std::string out;
+  for (int i = 0; i < n; ++i) out += text;
+  return out;
+}
+
+// The library and the tree call themselves once per level.
+TEST(ParseText, DeepNestingIsRefusedWithItsPlace) {
+  const std::string many = times(10000, "a.") + "a";
+  for (const std::string& text :
+       {many + " = 1", "[" + many + "]\nx = 1", "[[" + many + "]]", "x = { " + many + " = 1 }",
+        "x = " + times(10000, "[") + times(10000, "]"),
+        "x = " + times(10000, "{ a = ") + "1" + times(10000, "}"), "x = " + times(10000, "[\n")}) {
+    try {
+      parse_text("format = \"sinew.robot/1\"\n" + text, "deep.toml");
+      ADD_FAILURE() << text.substr(0, 40);
+    } catch (const Error& e) {
+      EXPECT_NE(std::string(e.what()).find("more than 100 levels"), std::string::npos) << e.what();
+      EXPECT_GE(e.problems().front().where.line, 2);
+    }
+  }
+  Node root = make_table("");
+  EXPECT_THROW(apply_set(root, many + "=1"), Error);
+}
+
+// Neither texts and comments nor numbers are nesting.
+TEST(ParseText, DotsAndBracketsInTextsAreNotNesting) {
+  const std::string dots = times(300, ".["),
+                    text = "a = \"\\\"" + dots + "\" # " + dots + "\nb = '''\n" + dots +
+                           "\n''' # it's\nc = [\n" +
+                           times(300, "  1.5, [2.5], { d = 3.5 }, 'it',\n") + "]\n";
+  EXPECT_EQ(parse_text(text, "flat.toml").find("c")->children.size(), 1200U);
 }
 
 TEST(Diagnostics, AProblemIsOneLine) {

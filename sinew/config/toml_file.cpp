@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "sinew/config/migrate.h"
 #include "sinew/config/node.h"
@@ -79,6 +80,63 @@ std::string line_of(std::string_view text, int line) {
   return result;
 }
 
+// --- nesting ---
+
+constexpr std::size_t deepest = 100;  // the library and the tree call themselves once per level
+
+// Returns the position behind the string that begins at `from`, or behind its line if it has no
+// end.
+std::size_t end_of_string(std::string_view text, std::size_t from) {
+  const char quote = text[from];
+  const std::string three(3, quote);
+  const bool is_long = text.substr(from, 3) == three;
+  for (std::size_t at = from + (is_long ? 3 : 1); at < text.size(); ++at) {
+    if (quote == '"' && text[at] == '\\') {
+      ++at;
+    } else if (is_long) {
+      if (text.substr(at, 3) == three) return at + 3;
+    } else if (text[at] == quote || text[at] == '\n') {
+      return at + 1;
+    }
+  }
+  return text.size();
+}
+
+// Throws Error where a key has too many parts, or lists and tables are too deep within each other.
+void refuse_deep_nesting(std::string_view text, const std::string& name) {
+  std::vector<std::size_t> dots{0};  // of the key in each open bracket
+  std::size_t depth = 0;             // sum of the dots, and the number of open brackets
+  for (std::size_t at = 0; at < text.size();) {
+    const char c = text[at];
+    if (c == '"' || c == '\'') {
+      at = end_of_string(text, at);
+      continue;
+    }
+    if (c == '#') {
+      at = std::min(text.find('\n', at), text.size());
+      continue;
+    }
+    if (c == '.') {
+      ++dots.back(), ++depth;
+    } else if (c == ',' || c == '\n') {
+      depth -= std::exchange(dots.back(), 0);
+    } else if (c == '[' || c == '{') {
+      dots.push_back(0), ++depth;
+    } else if ((c == ']' || c == '}') && dots.size() > 1) {
+      depth -= dots.back() + 1, dots.pop_back();
+    }
+    if (depth > deepest) {
+      const std::string_view before = text.substr(0, at);
+      const std::size_t line = before.rfind('\n') + 1;  // 0 in the first one
+      fail({name, static_cast<int>(1 + std::ranges::count(before, '\n')),
+            static_cast<int>(at - line + 1)},
+           "", fmt::format("more than {} levels of keys, lists and tables", deepest),
+           "a file whose tables have a few levels");
+    }
+    ++at;
+  }
+}
+
 // Returns advice for numbers out of range and for the common mistake mount_length = 3.15 in
 std::string syntax_hint(std::string_view line, std::string_view error) {
   const bool size = error.find("not representable") != error.npos ||
@@ -110,6 +168,7 @@ std::string syntax_hint(std::string_view line, std::string_view error) {
 }  // namespace
 
 Node parse_text(std::string_view text, const std::string& name) {
+  refuse_deep_nesting(text, name);
   const toml::parse_result result = toml::parse(text, name);
   if (!result) fail_syntax(result.error(), text, name);
   Node root = make_table("", {name, 1, 1});
