@@ -6,9 +6,12 @@
 #include <cctype>
 #include <charconv>
 #include <limits>
+#include <memory>
+#include <set>
 #include <utility>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/units/letters.h"
 
 namespace sinew::cli {
 
@@ -117,6 +120,19 @@ CLI::Validator passes(std::function<std::string(const std::string&)> wrong) {
     }
   };
   return {checked, ""};
+}
+
+void add_sets(CLI::App& sub, std::vector<std::string>& sets) {
+  const auto twice = [seen = std::make_shared<std::set<std::string>>()](const std::string& text) {
+    const std::string key(units::trimmed(std::string_view(text).substr(0, text.find('='))));
+    if (!seen->insert(key).second)
+      config::fail({}, "", config::in_quotes(text) + ", a second value of this key",
+                   "one value for each key");
+    return std::string();
+  };
+  sub.add_option("--set", sets, "KEY=VALUE: value to use in place of the file's")
+      ->allow_extra_args(false)
+      ->check(passes(twice));
 }
 
 void complete_description(CLI::App& app) {

@@ -59,10 +59,8 @@ inline void add_words(CLI::App& sub, const std::string& name, std::vector<std::s
   sub.add_option(name, words, description)->allow_extra_args(false);
 }
 
-// Adds `--set key=value`.
-inline void add_sets(CLI::App& sub, std::vector<std::string>& sets) {
-  add_words(sub, "--set", sets, "KEY=VALUE: value to use in place of the file's");
-}
+// Adds `--set key=value`, each key once.
+void add_sets(CLI::App& sub, std::vector<std::string>& sets);
 
 // Completes the description once all options are added: values are named VALUE, NUMBER or N in the
 // help, and text that is not a number is refused in messages of this program.

@@ -252,6 +252,7 @@ ExitCode tune_all(const TuneOptions& given) {
       {{"--results", options.runs.results}, {"--output", options.out}, {"--best", options.best}});
   require_place(options.out, options.force, candidates_kind, inputs);
   require_place(options.best, options.force, experiment_kind, inputs);
+  if (!options.best.empty()) tune::require_candidate(tuning, options.candidate);
 
   const tune::Tuned tuned = run_tuning(tuning, options, master, messages);
   const auto print = [&] {

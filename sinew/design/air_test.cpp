@@ -310,7 +310,8 @@ TEST_F(DesignAirOfRuns, RefusesInWords) {
   starts(of([](AirSettings& s) { s.droop = "1 bar diff"; }), "droop_flow: found nothing");
   starts(of([](AirSettings& s) { s.compressor = {"7 bar gauge, 6,2 L/min"}; }),
          "compressor: found \"7 bar gauge, 6,2 L/min\"; expected pressure, free flow and power");
-  starts(of([](AirSettings& s) { s.use = "nowhere"; }), "use: found \"nowhere\"");
+  starts(of([](AirSettings& s) { s.use = "nowhere"; }),
+         "nowhere: found nothing; expected the folder of a run");
   starts(of([](AirSettings& s) { s.use = test::source_dir() + "/robots/leg/actuator.toml"; }),
          "cycles: found nothing");
   const std::string table = write("table.csv", "air_used_per_step [g],status\n0.4,ok\n");

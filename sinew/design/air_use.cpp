@@ -218,8 +218,8 @@ void refuse_settings_of_muscles(const AirSettings& s) {
 AirUses air_uses(const AirSettings& s) {
   const fs::path path = s.use;
   if (!fs::exists(path))
-    config::refuse_setting(
-        "use", config::in_quotes(s.use),
+    config::fail(
+        {s.use, 0, 0}, "", "nothing",
         "the folder of a run, its summary.json, the table of a sweep or a file of an actuator");
   const bool is_file_of_muscle = !fs::is_directory(path) && path.extension() == ".toml";
   if (is_file_of_muscle) return of_muscle(s);

@@ -1,6 +1,7 @@
 #include "sinew/tune/sensitivity.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -392,6 +393,13 @@ Design design_of(std::string_view method, std::size_t ranges, int count, int see
   if (method == "ends") out.method = Method::one_at_a_time;
   const int usual = out.method == Method::morris ? 20 : 256;
   out.count = static_cast<std::size_t>(count > 0 ? count : usual);
+  if (count > 0 && out.method == Method::one_at_a_time)
+    config::fail({"points", 0, 0}, "", std::to_string(count),
+                 "no number of points: the method runs both ends of each range once");
+  if (out.method == Method::sobol && !std::has_single_bit(out.count))
+    config::fail({"points", 0, 0}, "", std::to_string(count),
+                 "a power of two, for which the points of the sequence are spread evenly",
+                 std::to_string(std::min<std::size_t>(std::bit_ceil(out.count), 1U << 19)));
   return out;
 }
 

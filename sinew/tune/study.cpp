@@ -1,6 +1,7 @@
 #include "sinew/tune/study.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -41,12 +42,29 @@ Study load_study(const std::string& path, const StudyOptions& options) {
   const bool plan = config::format_kind(config::parse_file(path)) == "plan";
   Study out = plan ? load_study(path) : Study{};
   if (!plan) out.experiment = path;
-  for (const auto list : {&Study::set, &Study::vary, &Study::range, &Study::where, &Study::report})
-    (out.*list).insert((out.*list).end(), (options.study.*list).begin(),
-                       (options.study.*list).end());
-  if (!options.study.largest.empty()) out.largest = options.study.largest;
-  if (options.study.seeds > 0) out.seeds = options.study.seeds;
-  if (options.study.points > 0) out.points = options.study.points;
+  // A value of the options is not the plan's, even if it has the same text.
+  const auto not_of_plan = [&](const char* key, const std::string& text) {
+    out.places.erase({key, text});
+  };
+  const auto add = [&](const char* key, std::vector<std::string> Study::*list) {
+    for (const std::string& text : options.study.*list) {
+      not_of_plan(key, text);
+      (out.*list).push_back(text);
+    }
+  };
+  add("set", &Study::set);
+  add("vary", &Study::vary);
+  add("range", &Study::range);
+  add("where", &Study::where);
+  add("report", &Study::report);
+  const auto replace = [&](const char* key, const std::string& text, auto& value, auto with) {
+    not_of_plan(key, text);
+    value = with;
+  };
+  const Study& own = options.study;
+  if (!own.largest.empty()) replace("largest", own.largest, out.largest, own.largest);
+  if (own.seeds > 0) replace("seeds", std::to_string(own.seeds), out.seeds, own.seeds);
+  if (own.points > 0) replace("points", std::to_string(own.points), out.points, own.points);
   if (!options.study.units.empty()) out.units = options.study.units;
   if (options.sample == "sobol") out.sample = Sample::Kind::sobol;
   if (options.sample == "latin") out.sample = Sample::Kind::latin;
@@ -227,16 +245,20 @@ bool depends_on_others(const Sweep& s, const Axis& axis) {
   return axis.key != "robot" && std::ranges::any_of(s.axes, has_words);
 }
 
-// Checks the least and the greatest number, each alone, and the words unless they depend on other
-// axes. Other faults of the experiment are ignored, since another axis may correct them.
+// Checks the least and the greatest number and one that is not whole, each alone, and the words
+// unless they depend on other axes. Other faults of the experiment are ignored, since another axis
+// may correct them.
 void check_without_unit(const Sweep& s, const Axis& axis) {
   const bool skips_words = depends_on_others(s, axis);
   const auto [least, greatest] = std::ranges::minmax_element(
       axis.values, {}, [](const Value& v) { return v.number.value_or(0); });
-  for (const Value& value : axis.values) {
-    if (value.number ? &value != &*least && &value != &*greatest : skips_words) continue;
+  const auto part = std::ranges::find_if(
+      axis.values, [](const Value& v) { return v.number && *v.number != std::floor(*v.number); });
+  for (auto value = axis.values.begin(); value != axis.values.end(); ++value) {
+    const bool is_checked = value == least || value == greatest || value == part;
+    if (value->number ? !is_checked : skips_words) continue;
     std::vector<std::string> sets = s.sets;
-    sets.push_back(axis.set(value));
+    sets.push_back(axis.set(*value));
     try {
       (void)run::buildable(s.experiment, sets);
     } catch (const config::Error& e) {

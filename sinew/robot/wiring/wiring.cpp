@@ -89,7 +89,6 @@ std::vector<ValveBit> robot_bits(const Robot& robot) {
 
 void check_bits(const Wiring& w, const Robot& robot, List& out) {
   UsedNumbers by_table("bit");
-  std::map<int, UsedNumbers> by_robot;  // one per board
   for (const Wiring::Valve& v : w.valves) {
     const std::string key = "wiring.valve." + v.name;
     by_table.take(v.inlet.bit, key + ".inlet.bit", out);
@@ -102,7 +101,6 @@ void check_bits(const Wiring& w, const Robot& robot, List& out) {
     const bool muscle = find_muscle(robot, b.of) >= 0;
     const std::string chamber = b.of == up ? "cylinder.up" : "cylinder.down";
     const std::string key = (muscle ? "muscle." + b.of : chamber) + "." + b.which + ".bit";
-    by_robot.try_emplace(b.board, "bit").first->second.take(b.bit, key, out);
     if (w.present && !by_table.has(b.bit))
       out.push_back({key, std::to_string(b.bit), "a bit that a pin of [wiring] carries", ""});
   }

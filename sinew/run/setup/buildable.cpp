@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "sinew/actuator/body.h"
@@ -28,11 +29,20 @@ using List = std::vector<robot::Contradiction>;
 
 // The range of a joint's motion: its start, and its setpoints in one step of the plan [rad].
 struct Reach {
-  double low = 0, high = 0;
+  double low = 0, high = 0, start = 0;
+  double least = std::numeric_limits<double>::infinity(), most = -least;  // of the setpoints
 
   void add(double angle) {
     low = std::min(low, angle);
     high = std::max(high, angle);
+    least = std::min(least, angle);
+    most = std::max(most, angle);
+  }
+
+  // Returns whether only the start takes the joint to this angle.
+  bool is_of_start(double angle) const {
+    constexpr double equal = 1e-6;
+    return angle == start && least <= most && (angle < least - equal || angle > most + equal);
   }
 };
 
@@ -55,7 +65,7 @@ std::vector<Reach> reaches(const Experiment& e) {
   std::vector<Reach> out;
   for (const robot::Joint& j : e.robot.joints) {
     const double start = e.start.joint_angles.at(j.name);
-    out.push_back({start, start});
+    out.push_back({start, start, start});
   }
   gait::Legs legs(e.robot, e.plan);
   gait::MachineMeasured still;
@@ -89,13 +99,27 @@ void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
       if (!none && !(taut && setup.muscles[m].external_volume <= 0)) continue;
       const robot::Muscle& muscle = e.robot.muscles[m];
       const std::string& joint = muscle.joint;
-      const double at = angle[static_cast<std::size_t>(tendons.joint(i, 0))];
+      const auto j = static_cast<std::size_t>(tendons.joint(i, 0));
+      const double at = angle[j];
       const std::string key = "muscle." + muscle.name;
       if (std::ranges::any_of(out, [&](const auto& c) { return c.key.starts_with(key + "."); }))
         continue;
       const auto text = [&](double metres) {
         return config::quantity_like(e.origins, key + ".mount_length", metres, "m", "in");
       };
+      if (reach[j].is_of_start(at)) {
+        const std::string start = "start.joint_angles." + joint;
+        const auto shown = [&](double rad) {
+          return config::quantity_like(e.origins, start, rad, "rad", "deg");
+        };
+        out.push_back({start,
+                       shown(at) + ", where the chamber of " + muscle.name +
+                           " has no volume: the muscle is " + text(length[i]) + " long",
+                       "an angle near those of the plan, " + shown(reach[j].least) + " to " +
+                           shown(reach[j].most),
+                       ""});
+        continue;
+      }
       out.push_back(
           {key + (none ? ".mount_length" : ".external_volume"),
            "a chamber without volume: with joint " + joint + " at " +

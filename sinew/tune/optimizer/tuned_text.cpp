@@ -171,15 +171,32 @@ std::string text_of(const Tuning& tuning, const Tuned& tuned, const TableUnits* 
   return out;
 }
 
+namespace {
+
+[[noreturn]] void refuse_candidate(const std::string& found, std::size_t all) {
+  config::fail({"candidate", 0, 0}, "", found, fmt::format("the number of one, 0 to {}", all - 1),
+               "one of the table's");
+}
+
+}  // namespace
+
+void require_candidate(const Tuning& tuning, int number) {
+  const std::size_t all = tuning.method.population * tuning.generations;
+  if (number >= 0 && static_cast<std::size_t>(number) >= all)
+    refuse_candidate(std::to_string(number), all);
+  if (const std::size_t goals = tuning.goals.goals.size(); number < 0 && goals > 1)
+    refuse_candidate(fmt::format("{} goals, for which no single candidate is the best", goals),
+                     all);
+}
+
 const Candidate& candidate_of(const Tuned& tuned, int number) {
   const std::size_t all = tuned.candidates.size();
   const auto wanted = static_cast<std::size_t>(number);
   if (number < 0 && tuned.best.size() == 1) return tuned.candidates[tuned.best.front()];
   if (number >= 0 && wanted < all) return tuned.candidates[wanted];
-  config::fail(
-      {"candidate", 0, 0}, "",
+  refuse_candidate(
       number < 0 ? fmt::format("{} best candidates", tuned.best.size()) : std::to_string(wanted),
-      fmt::format("the number of one, 0 to {}", all - 1), "one of the table's");
+      all);
 }
 
 std::string json_of(const Tuning& tuning, const Tuned& tuned) {

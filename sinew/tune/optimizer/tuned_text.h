@@ -30,6 +30,10 @@ std::vector<std::string> candidate_cells(const Candidate& candidate);
 
 // --- a candidate as an experiment of its own ---
 
+// Throws config::Error that begins with "candidate" if no result of this tuning has a candidate of
+// this number, or of -1 a single best one.
+void require_candidate(const Tuning& tuning, int number);
+
 // Returns the candidate of this number, or of -1 the only best one. Throws config::Error that
 // begins with "candidate".
 const Candidate& candidate_of(const Tuned& tuned, int number);
