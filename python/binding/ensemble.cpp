@@ -73,11 +73,13 @@ void bind_ensemble(py::module_& m) {
       "\n"
       "The experiment is read and checked once. The figures have the bits of run() with the same\n"
       "values.")
-      .def(py::init(&make), py::arg("experiment"), py::arg("parameters"), py::arg("figures"),
-           py::kw_only(), py::arg("sets") = py::none(), py::arg("allow_unreachable") = false,
-           "`parameters`: keys of numbers in the experiment; `figures`: keys of its summary;\n"
-           "`sets`: other settings of all runs. Raises InputError, also for a parameter that does\n"
-           "not exist or is not a number.")
+      .def(
+          py::init(&make), py::arg("experiment"), py::arg("parameters"), py::arg("figures"),
+          py::kw_only(), py::arg("sets") = py::none(), py::arg("allow_unreachable") = false,
+          "`parameters`: keys of numbers in the experiment, also of an element of a list,\n"
+          "\"polynomial[1]\"; `figures`: keys of its summary; `sets`: other settings of all runs.\n"
+          "Raises InputError, also for a parameter that does not exist, is not a number or is\n"
+          "given twice.")
       .def_property_readonly(
           "parameters", [](const HeldEnsemble& self) { return self.parameters; },
           "The keys of the parameters, a column of the values each.")
@@ -97,8 +99,10 @@ void bind_ensemble(py::module_& m) {
           "too.\n"
           "`progress` is called with the numbers of completed and of all runs; an exception that\n"
           "it raises ends the ensemble, as Ctrl-C does. Raises ValueError for another shape,\n"
-          "InputError for a figure that does not exist and resembles one that does, and\n"
-          "RuntimeError for a card that cannot be used.")
+          "InputError for a figure that neither these runs nor the experiment as it is have, if "
+          "it\n"
+          "resembles one of theirs or if none begins with its first part, and RuntimeError for a\n"
+          "card that cannot be used.")
       .def(
           "__call__",
           [](const HeldEnsemble& self, const py::object& values, int threads,

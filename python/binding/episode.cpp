@@ -111,7 +111,7 @@ std::shared_ptr<HeldEpisodes> make_episodes(std::shared_ptr<Episode> definition,
     throw std::invalid_argument(fmt::format("threads: found {}; expected 0 or more", threads));
   const ExperimentPointer e = from_file(experiment, py::none());
   auto ensemble = std::make_shared<const run::Ensemble>(e->path, e->sets, parameters,
-                                                        std::vector<std::string>{}, true);
+                                                        std::vector<std::string>{});
   return std::make_shared<HeldEpisodes>("episodes", std::move(definition), std::move(ensemble),
                                         count, threads);
 }

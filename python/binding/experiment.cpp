@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <set>
+
 #include "python/binding/numbers.h"
 #include "python/binding/values.h"
 #include "sinew/config/compose.h"
@@ -14,6 +16,7 @@
 #include "sinew/files/values.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/signals/tick.h"
+#include "sinew/units/letters.h"
 #include "sinew/units/quantity.h"
 
 namespace sinew::python {
@@ -142,10 +145,17 @@ std::vector<std::string> sets_of(const py::object& sets,
     return out;
   }
   if (py::isinstance<py::list>(sets) || py::isinstance<py::tuple>(sets)) {
+    std::set<std::string> keys;
     for (const py::handle set : sets) {
       if (!py::isinstance<py::str>(set))
         throw py::type_error("settings: found a member that is no text; expected \"key=value\"");
       out.push_back(set.cast<std::string>());
+      const std::string key(
+          units::trimmed(std::string_view(out.back()).substr(0, out.back().find('='))));
+      if (!keys.insert(key).second)
+        throw std::invalid_argument(fmt::format(
+            "settings: found {}, a second value of this key; expected one value for each key",
+            config::in_quotes(out.back())));
     }
     return out;
   }

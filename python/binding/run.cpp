@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "python/binding/recording.h"
+#include "sinew/analysis/record/machine.h"
 #include "sinew/config/node.h"
 #include "sinew/run/folder/run_storage.h"
 #include "sinew/run/simulation/place.h"
@@ -24,6 +25,9 @@ using Pointer = std::shared_ptr<Recording>;
 // Runs in memory only, simulated or on a board that is ready.
 void run_here(const HeldExperiment& e, const run::RunRequest& request, std::atomic<bool>& stop,
               Recording& out) {
+  run::refuse_unrunnable(e.read, false);
+  out.resolved = config::parse_text(experiment::resolved(e.read, SINEW_VERSION), "resolved.toml");
+  (void)analysis::read_machine(out.resolved);  // what cannot be summarised is not run
   run::Place place(request.port, e.read);
   place.prepare(request.clear_fault, &stop);
   out.board = place.who();
@@ -35,7 +39,6 @@ void run_here(const HeldExperiment& e, const run::RunRequest& request, std::atom
   if (outcome.ended_early()) throw RunError(run::last_records(e.read, outcome));
   if (!outcome.no_room.empty()) throw std::runtime_error(outcome.no_room);
   out.table = std::move(outcome.table);
-  out.resolved = config::parse_text(experiment::resolved(e.read, SINEW_VERSION), "resolved.toml");
   out.name = e.read.name;
   summarize(out);
   for (std::string& text : run::warnings_outside_log(e.read, outcome))

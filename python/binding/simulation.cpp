@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "sinew/run/folder/run_storage.h"
+
 namespace sinew::python {
 
 namespace {
@@ -174,7 +176,9 @@ void bind_simulation(py::module_& m) {
           "A run that you hold: advance it, read it, change it, save and restore it. However it\n"
           "is cut into advances, looked at and restored: the same bits as a run at one go.");
   c.def(py::init([](const py::object& experiment, const py::object& sets) {
-          return std::make_shared<HeldSimulation>(experiment_of(experiment, sets));
+          const ExperimentPointer e = experiment_of(experiment, sets);
+          run::refuse_unrunnable(e->read, false);
+          return std::make_shared<HeldSimulation>(e);
         }),
         py::arg("experiment"), py::arg("sets") = py::none(),
         "At its start. `experiment` is a path or an Experiment, `sets` as for Experiment. Raises\n"

@@ -110,7 +110,8 @@ py::object sweep(const py::object& experiment, const py::object& vary, const py:
       },
       [&] { report_progress(progress, done.load(), all); });
   report_progress(progress, static_cast<std::int64_t>(all), all);
-  tune::refuse_empty_columns(rows, asked);
+  // Without a run that has figures, the rows have the reasons.
+  if (std::ranges::any_of(rows, &tune::Row::ok)) tune::refuse_empty_columns(rows, asked);
   return parsed(tune::json_of(tune::headings(asked), rows))["rows"];
 }
 
@@ -155,8 +156,9 @@ void bind_sweep(py::module_& m) {
       "`progress` is called with how many are done, and of how many; what it raises ends the\n"
       "sweep, as Ctrl-C does. `device`: \"auto\", \"cpu\", \"gpu\" or \"gpu:1\", the cores or a "
       "graphics\n"
-      "card. The rows are the same for any number of threads and any device. Raises InputError,\n"
-      "and RuntimeError for a card that cannot be used.");
+      "card. The rows are the same for any number of threads and any device. A run that is\n"
+      "refused or ends early has None in place of its figures, and the reason as its status.\n"
+      "Raises InputError, and RuntimeError for a card that cannot be used.");
   m.def("tune", &tune_file, py::arg("path"), py::arg("results"), py::kw_only(),
         py::arg("sets") = py::none(), py::arg("generations") = 0, py::arg("threads") = 0,
         py::arg("progress") = py::none(), py::arg("device") = "auto",

@@ -338,6 +338,16 @@ class Vector(unittest.TestCase):
                     seen = alone.step(actions[k, i])[0]
                     self.assertEqual(seen.tobytes(), rows[k + 1, i].tobytes())
 
+    def test_a_seed_may_be_numpys(self) -> None:
+        env, many = sinew.gym.Env("walk"), sinew.gym.VectorEnv("walk", 2)
+        for seed in (numpy.int64(3), numpy.uint8(3), numpy.array(3)):
+            self.assertEqual(env.reset(seed=seed)[1]["seed"], 3)
+            self.assertEqual(list(many.reset(seed=seed)[1]["seed"]), [3, 4])
+        self.assertEqual(list(many.reset(seed=numpy.array([7, 5]))[1]["seed"]), [7, 5])
+        wrong: Any = 3.5
+        with self.assertRaises(TypeError):
+            many.reset(seed=wrong)
+
     def test_values_are_set_at_a_reset(self) -> None:
         many = sinew.gym.VectorEnv("walk", 3, parameters=["link.femur.mass"])
         with self.assertRaisesRegex(ValueError, "values: found none; expected those of link.femur"):
@@ -352,6 +362,12 @@ class Vector(unittest.TestCase):
         self.assertNotEqual(seen[0].tobytes(), seen[1].tobytes())
         with self.assertRaisesRegex(sinew.InputError, "link.femur.maas"):
             sinew.gym.VectorEnv("walk", 2, parameters=["link.femur.maas"], values=[0.3])
+        for wrong in (0.3, [0.3, 0.2], [[0.3]]):
+            of_seeds = sinew.gym.VectorEnv(
+                "walk", 2, parameters=["link.femur.mass"], values=lambda seed: wrong
+            )
+            with self.assertRaisesRegex(ValueError, r"for seed 1; expected \(1,\)"):
+                of_seeds.reset(seed=1)
         with self.assertRaisesRegex(ValueError, "threads: found -1"):
             sinew.gym.VectorEnv("walk", 2, threads=-1)
 

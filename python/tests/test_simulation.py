@@ -17,6 +17,7 @@ from typing import Any, List
 import numpy
 
 import sinew
+import sinew.gym
 from common import AIR, WALK, Refusals, program
 
 
@@ -242,6 +243,25 @@ class Loop(unittest.TestCase):
 
 
 class Wrong(Refusals):
+    def test_what_no_run_in_a_folder_accepts_is_refused_everywhere(self) -> None:
+        for wrong, words in (
+            ("phase.propulsion.y.polynomial[0]=-16 in", "a path out of reach"),
+            ('log.channels=["/jiont/*"]', 'try "/joint/*"'),
+        ):
+            with tempfile.TemporaryDirectory() as folder:
+                self.refused(
+                    [
+                        (lambda: sinew.run(WALK, [wrong], folder=folder), sinew.InputError, words),
+                        (lambda: sinew.run(WALK, [wrong]), sinew.InputError, words),
+                        (lambda: sinew.Simulation(WALK, [wrong]), sinew.InputError, words),
+                    ]
+                )
+        many = sinew.gym.VectorEnv(
+            "walk", 2, parameters=["phase.propulsion.y.polynomial[0]"], values=[-16 * 0.0254]
+        )
+        with self.assertRaisesRegex(sinew.InputError, "a path out of reach"):
+            many.reset(seed=1)
+
     def test_inputs_are_refused_in_words(self) -> None:
         leg = sinew.Simulation(WALK)
         other = sinew.Simulation(AIR)

@@ -38,6 +38,12 @@ class Sweep(unittest.TestCase):
             alone.summary["joints"]["hip"]["tracking_rms_rad"],
         )
 
+    def test_refused_runs_are_rows_with_their_reason(self) -> None:
+        rows = sinew.sweep(AIR, {GAIN: [-1.0, -2.0]}, report=ERROR)
+        self.assertEqual([row["joints.hip.tracking_rms [rad]"] for row in rows], [None, None])
+        for row in rows:
+            self.assertIn("expected at least 0", row["status"])
+
     def test_progress_is_reported_and_may_end_it(self) -> None:
         told: List[Tuple[int, int]] = []
         sinew.sweep(AIR, {"seed": range(1, 40)}, report=ERROR, progress=lambda n, of: told.append((n, of)))
@@ -61,7 +67,9 @@ class Sweep(unittest.TestCase):
 
 class Ensemble(unittest.TestCase):
     def test_rows_are_those_of_run(self) -> None:
-        ensemble = sinew.Ensemble(AIR, [GAIN, "seed"], [ERROR, "air_used_kg", "no.such_figure"])
+        ensemble = sinew.Ensemble(
+            AIR, [GAIN, "seed"], [ERROR, "air_used_kg", "trolley.stop_reached_s"]
+        )
         self.assertEqual(ensemble.units, ["1/count", ""])
         values = numpy.array([[4e-4, 1], [6e-4, 2], [6e-4, 3]])
         for threads in (1, 3):
@@ -72,6 +80,19 @@ class Ensemble(unittest.TestCase):
                 alone = sinew.run(AIR, {GAIN: float(gain), "seed": int(seed)}).summary
                 self.assertEqual(row[0], alone["joints"]["hip"]["tracking_rms_rad"])
                 self.assertEqual(row[1], alone["air_used_kg"])
+
+    def test_an_element_of_a_list_is_a_parameter(self) -> None:
+        key = "actuator.bpa.effectiveness.polynomial[1]"
+        ensemble = sinew.Ensemble(AIR, [key], [ERROR])
+        self.assertEqual(ensemble.units, ["1/Pa"])
+        figures = ensemble([[7e-8], [8e-8], [7e-8]])
+        for row, text in zip(figures, ("7e-08 1/Pa", "8e-08 1/Pa")):
+            alone = sinew.run(AIR, [f"{key}={text}"]).summary
+            self.assertEqual(row[0], alone["joints"]["hip"]["tracking_rms_rad"])
+        self.assertNotEqual(figures[0], figures[1])
+        self.assertEqual(figures[0], figures[2])
+        with self.assertRaisesRegex(sinew.InputError, "a number of the experiment"):
+            sinew.Ensemble(AIR, ["actuator.bpa.effectiveness.polynomial[9]"], [ERROR])
 
     def test_a_refused_run_is_nan_with_its_reason(self) -> None:
         told: List[Tuple[int, int]] = []
@@ -92,6 +113,12 @@ class Ensemble(unittest.TestCase):
         misspelt = sinew.Ensemble(AIR, [GAIN], ["joints.hip.trakcing_rms_rad"])
         with self.assertRaisesRegex(sinew.InputError, 'try "joints.hip.tracking_rms_rad"'):
             misspelt([[4e-4]])
+        for figure in ("joints.hip.trakcing_rms_rad", "no.such_figure"):
+            for gain in (4e-4, -1.0):  # a run, and none
+                with self.assertRaisesRegex(sinew.InputError, f'figures: found "{figure}"'):
+                    sinew.Ensemble(AIR, [GAIN], [figure])([[gain]])
+        with self.assertRaisesRegex(sinew.InputError, 'found "seed" twice'):
+            sinew.Ensemble(AIR, ["seed", GAIN, "seed"], [ERROR])
         ensemble = sinew.Ensemble(AIR, [GAIN], [ERROR])
         with self.assertRaisesRegex(ValueError, "one row for each run"):
             ensemble([1e-4, 2e-4])
@@ -147,7 +174,8 @@ class Wrong(Refusals):
                 (lambda: swept({GAIN: []}), ValueError, "found no values"),
                 (lambda: swept({GAIN: [None]}), TypeError, "expected real numbers"),
                 (lambda: swept({GAIN: ["1 m"]}), sinew.InputError, "1 m"),
-                (lambda: swept({GAIN: [-1.0]}), RuntimeError, "expected at least 0"),
+                (lambda: swept({"seed": "1:2:3"}), sinew.InputError, "found seed: 1.5"),
+                (lambda: swept(sets=["seed=1", "seed=2"]), ValueError, "second value of this key"),
                 (lambda: swept({GAIN: [float("nan")]}), sinew.InputError, "nan"),
                 (lambda: swept({}, report="joints.hpi.x"), sinew.InputError, "joints.hpi.x"),
                 (lambda: swept({}, report=3), TypeError, "report: found 3"),

@@ -224,8 +224,10 @@ Numbers::Numbers(const Experiment& like, const std::vector<std::string>& keys)
   units::EachField visitor([&](const units::VisitedField& f) {
     hash_ = units::hash(f.path, hash_);
     std::size_t& key = key_of_.emplace_back(absent);
-    // The elements of a list cannot be set by their keys.
-    if ((!f.number && !f.whole) || f.path.find('[') != f.path.npos) return;
+    // A key of a table within a list cannot be set.
+    if (f.path.find('[') != f.path.npos) return;
+    if (f.numbers) find_elements(f, keys);
+    if (!f.number && !f.whole) return;
     if (const std::size_t own = find(f.path); own < keys.size()) {
       key = own;
       has_[own] = true;
@@ -239,6 +241,20 @@ Numbers::Numbers(const Experiment& like, const std::vector<std::string>& keys)
   visit(visitor, "experiment", e);
 }
 
+// Finds the keys of elements of this list, "polynomial[1]".
+void Numbers::find_elements(const units::VisitedField& list, const std::vector<std::string>& keys) {
+  for (std::size_t i = 0; i < list.numbers->size(); ++i) {
+    const auto key = std::ranges::find(keys, fmt::format("{}[{}]", list.path, i));
+    if (key == keys.end()) continue;
+    const auto own = static_cast<std::size_t>(key - keys.begin());
+    has_[own] = has_elements_ = true;
+    values_[own] = (*list.numbers)[i];
+    units_[own] = list.per.empty()
+                      ? std::string(list.field.unit)
+                      : units::coefficient_unit(list.field.unit, list.per, static_cast<int>(i));
+  }
+}
+
 bool Numbers::set(Experiment& e, std::span<const double> values) const {
   return put(e, values, true);
 }
@@ -250,7 +266,7 @@ bool Numbers::set_unbounded(Experiment& e, std::span<const double> values) const
 bool Numbers::put(Experiment& e, std::span<const double> values, bool bounded) const {
   std::uint64_t hash = 0;
   std::size_t number = 0;
-  bool good = std::ranges::find(has_, false) == has_.end();
+  bool good = !has_elements_ && std::ranges::find(has_, false) == has_.end();
   units::EachField visitor([&](units::VisitedField& f) {
     hash = units::hash(f.path, hash);
     const std::size_t key = number < key_of_.size() ? key_of_[number] : absent;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "sinew/experiment/experiment.h"
+#include "sinew/units/each_field.h"
 
 namespace sinew::experiment {
 
@@ -29,9 +30,9 @@ class Numbers {
 
   // Sets the numbers to values in SI, one for each key, and the plan's gains, pulses and
   // times, which follow from them. `e` must have the same tables as `like`. Returns false if the
-  // file has to be read with these values instead, because one of them is out of its bounds or
-  // because keys appear or vanish with it; `e` has an unspecified value then. Contradictions among
-  // the values are not found here.
+  // file has to be read with these values instead, because one of them is out of its bounds or the
+  // element of a list, or because keys appear or vanish with it; `e` has an unspecified value then.
+  // Contradictions among the values are not found here.
   bool set(Experiment& e, std::span<const double> values) const;
   // Sets them without regard to the bounds of their fields, for a search that has its own. Returns
   // false if keys appear or vanish.
@@ -40,9 +41,11 @@ class Numbers {
  private:
   static constexpr std::size_t absent = static_cast<std::size_t>(-1);
 
+  void find_elements(const units::VisitedField& list, const std::vector<std::string>& keys);
   bool put(Experiment& e, std::span<const double> values, bool bounded) const;
 
-  std::vector<bool> has_;  // for each key, and what follows
+  std::vector<bool> has_;      // for each key, and what follows
+  bool has_elements_ = false;  // a key is that of an element of a list: the file has to be read
   std::vector<std::string> units_;
   std::vector<double> values_;
   std::vector<std::size_t> key_of_;  // for each visited field; `absent`: it is not set

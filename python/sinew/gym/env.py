@@ -1,6 +1,7 @@
 """Single and vectorized environments."""
 
 import copy
+import operator
 from typing import Any, Callable, Dict, Optional, Sequence, Tuple, Union
 
 import numpy
@@ -97,10 +98,11 @@ class _Seeds:
 
     def next(self, seed: Optional[int]) -> int:
         if seed is not None:
+            seed = operator.index(seed)
             if not 0 <= seed < 2**31:
                 raise ValueError(f"seed: found {seed}; expected 0 to 2147483647")
             self._random = numpy.random.default_rng(seed)
-            return int(seed)
+            return seed
         return int(self._random.integers(2**31))
 
 
@@ -290,7 +292,13 @@ class VectorEnv:
         """Begin the episodes of these environments with the next step."""
         if self._values is not None:
             for i, seed in zip(places, seeds):
-                self.values[i] = self._values(seed)
+                row = numpy.asarray(self._values(seed), float)
+                if row.shape != self.values.shape[1:]:
+                    raise ValueError(
+                        f"values: found shape {row.shape} of the function for seed {seed}; "
+                        f"expected {self.values.shape[1:]}, a number for each parameter"
+                    )
+                self.values[i] = row
         self._episodes.begin(places, seeds, self.values[places])
 
     def reset(
@@ -313,10 +321,11 @@ class VectorEnv:
         seeds: "Sequence[Optional[int]]"
         if seed is None:
             seeds = [None] * self.num_envs
-        elif isinstance(seed, int):
-            seeds = [seed + i for i in range(self.num_envs)]
+        elif hasattr(seed, "__index__") and numpy.ndim(seed) == 0:
+            first = operator.index(seed)
+            seeds = [first + i for i in range(self.num_envs)]
         else:
-            seeds = list(seed)
+            seeds = list(seed)  # type: ignore[arg-type]
         if len(seeds) != self.num_envs:
             raise ValueError(f"seed: found {len(seeds)}; expected one, or {self.num_envs}")
         numbers = [s.next(one) for s, one in zip(self._seeds, seeds)]

@@ -75,6 +75,14 @@ void describe(const experiment::Experiment& e, analysis::Machine& out) {
   }
 }
 
+// Returns whether a figure begins with the same part as the key: "joints".
+bool has_first_part(std::string_view key, const analysis::Summary& summary) {
+  const auto part = [](std::string_view text) { return text.substr(0, text.find('.')); };
+  return std::ranges::any_of(summary.entries(), [&](const analysis::Entry& entry) {
+    return part(entry.key) == part(key);
+  });
+}
+
 std::string status_of(const experiment::Experiment& e, const Outcome& outcome) {
   if (outcome.ended_early()) return "ended early: " + cause_of(e, outcome);
   if (!outcome.table.complete) return "more valve edges than there was room for";
@@ -101,6 +109,10 @@ Ensemble::Ensemble(const std::string& experiment, const std::vector<std::string>
       figures_(std::move(figures)),
       allow_unreachable_(allow_unreachable),
       start_(start({})) {
+  for (auto key = parameters_.begin(); key != parameters_.end(); ++key)
+    if (std::find(parameters_.begin(), key, *key) != key)
+      config::fail({"parameters", 0, 0}, "", config::in_quotes(*key) + " twice",
+                   "each parameter once");
   for (const std::string& key : unknown())
     config::fail({experiment, 0, 0}, key, "a parameter", "a number of the experiment",
                  "sinew show " + units::shell_word(experiment));
@@ -312,10 +324,31 @@ analysis::Summary Ensemble::figures_of(const Member& member, const Outcome& outc
   return whole;
 }
 
-// Checks the wanted figures with those of a whole run.
+// Returns the figures of the experiment as it was read first; none if it ends early.
+analysis::Summary Ensemble::figures_as_it_is() const {
+  const Outcome outcome = run::run(start_.experiment);
+  if (outcome.ended_early()) return {};
+  return analysis::summarize(outcome.table, start_.machine);
+}
+
+// Checks the wanted figures with those of a whole run. A figure that this run lacks is not refused
+// if the experiment as it is has it. Its name is wrong if it resembles another one, or if no figure
+// begins with its first part.
 void Ensemble::check_figures(const analysis::Summary& whole) const {
+  std::vector<std::string> doubtful = figures_;
+  std::erase_if(doubtful, [&](const std::string& key) {
+    return whole.exists(key) ||
+           (has_first_part(key, whole) && analysis::nearest_key(key, whole).empty());
+  });
+  if (doubtful.empty()) return;
+  const analysis::Summary as_it_is = figures_as_it_is();
   try {
-    for (const std::string& key : figures_) analysis::refuse_misspelt(key, whole, "figures");
+    for (const std::string& key : doubtful) {
+      if (as_it_is.exists(key)) continue;
+      analysis::refuse_misspelt(key, whole, "figures");
+      config::fail({"figures", 0, 0}, "", config::in_quotes(key), "a key of summary.json",
+                   "one of those that a run has");
+    }
   } catch (const config::Error&) {
     const std::lock_guard lock(mutex_);
     misspelt_ = std::current_exception();
@@ -382,6 +415,11 @@ std::vector<std::string> Ensemble::run(std::span<const double> values, std::span
           .stopped = [&] { return options.stop && options.stop->load(); },
           .notice = options.notice},
          host::threads_of(options.threads));
+  // Where no run has figures, their names are checked with the experiment as it is.
+  const bool is_stopped = options.stop && options.stop->load();
+  if (rows > 0 && !is_stopped && std::ranges::find(status, "ok") == status.end())
+    if (const analysis::Summary as_it_is = figures_as_it_is(); !as_it_is.entries().empty())
+      check_figures(as_it_is);
   if (const std::exception_ptr wrong = misspelt()) std::rethrow_exception(wrong);
   return status;
 }

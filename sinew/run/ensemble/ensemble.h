@@ -49,7 +49,8 @@ class Ensemble {
  public:
   // Reads the experiment with these settings, "key=value". `parameters` are keys of numbers, whole
   // numbers included; `figures` are keys of summary.json. Throws config::Error if the experiment
-  // is refused, or if a parameter does not exist or is not a number.
+  // is refused, or if a parameter does not exist, is not a number or is
+  // given twice.
   Ensemble(const std::string& experiment, const std::vector<std::string>& sets,
            std::vector<std::string> parameters, std::vector<std::string> figures,
            bool allow_unreachable = false);
@@ -136,6 +137,7 @@ class Ensemble {
   bool reads() const;
   analysis::Summary figures_of(const Member& member, const Outcome& outcome, bool& no_air) const;
   void check_figures(const analysis::Summary& whole) const;
+  analysis::Summary figures_as_it_is() const;
   std::exception_ptr misspelt() const;
   bool is_compared(std::span<const double> values) const;
   void compare(const Member& set, const Member& read, std::span<const double> values) const;

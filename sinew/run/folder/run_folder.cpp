@@ -21,7 +21,7 @@ struct KnownFile {
   bool makes_a_run = true;  // whether a folder with this file alone contains a run
 };
 constexpr KnownFile known_files[] = {
-    {log_name, "sinew.run"},
+    {log_name, "sinew"},
     {resolved_name, "format=\"sinew.experiment/"},
     {summary_name, summary_kind.mark, summary_kind.at},
     {measured_name, "time[s],", FileKind::At::start, false},

@@ -177,13 +177,17 @@ StoredRun store_table(const signals::Table& table, const experiment::Experiment&
   return store_imported(table, e, {}, "", where, notices);
 }
 
+void refuse_unrunnable(const experiment::Experiment& e, bool allow_unreachable) {
+  if (!allow_unreachable) refuse_unreachable(e);
+  (void)logged_topics(e);
+}
+
 experiment::Experiment runnable(const std::string& path, const std::vector<std::string>& sets,
                                 bool allow_unreachable) {
   const config::Node root = config::compose(path, sets);
   experiment::Experiment e = buildable(root, path);
-  if (!allow_unreachable) refuse_unreachable(e);
+  refuse_unrunnable(e, allow_unreachable);
   (void)analysis::read_machine(root);  // an experiment that cannot be summarised is not run
-  (void)logged_topics(e);
   return e;
 }
 

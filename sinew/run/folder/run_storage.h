@@ -101,6 +101,10 @@ StoredRun run_and_store(RunRequest request, Notices notices = {});
 StoredRun store_table(const signals::Table& table, const experiment::Experiment& e,
                       const RunRequest& where, const Notices& notices = {});
 
+// Throws config::Error for what buildable() accepts and no run does: channels of the log that do
+// not exist and, unless they are allowed, foot paths out of reach.
+void refuse_unrunnable(const experiment::Experiment& experiment, bool allow_unreachable);
+
 // Returns an experiment whose machine, plan, controller, channels and reported values were checked,
 // as `sinew run` and `sinew check` do. `sets` are "key=value" and override the file's. Throws
 // config::Error with the lines of the files; with `allow_unreachable` a foot path may leave the
