@@ -40,11 +40,10 @@ const std::set<std::string_view>& names_of_rows() {
 
 // Settings of the other commands, which have no row.
 constexpr std::string_view further =
-    " align align_by candidate channels clock columns dates decimal device drop_incomplete "
-    "encoding event font foot force fps json label largest names offsets only output part points "
-    "predict_dat range rate report root seeds shard speed spread_times thousands title to units "
-    "values "
-    "vary where within ";
+    " align align_by candidate channels clock clock_scale columns dates decimal device "
+    "drop_incomplete encoding event font foot force fps json label largest names offsets only "
+    "output part points predict_dat range rate report root seeds shard shift speed spread_times "
+    "start thousands title to units values vary where within ";
 
 // Settings that are no subject of a problem: a file, or a word of the line, may be called so.
 constexpr std::string_view no_subjects =

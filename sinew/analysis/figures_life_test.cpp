@@ -122,6 +122,33 @@ TEST(Wear, AValveUsesItsSwitchings) {
   EXPECT_EQ(s.find("valves." + name + ".exhaust_life_share"), nullptr);
 }
 
+// Rows of an imported table that are too far apart for pulses give no figure of the valves.
+TEST(Wear, ValvesWithoutTheirPulsesHaveAWarningAndNoFigures) {
+  Machine m = leg();
+  m.robot.muscles[0].inlet = m.robot.muscles[0].exhaust = "rated";
+  m.valves = {{.name = "rated", .rated_switchings = 1000}};
+  test::Log log = swings(m, 0.25);
+  const std::string name = m.robot.muscles[0].name;
+  for (const char* which : {"/inlet/open", "/exhaust/open"})
+    log.pulses("/valve/" + name + which, 1e-3, 1);
+  const std::vector<std::string> keys = {
+      "valves.switchings", "valves.coil_time_s", "valves." + name + ".inlet_life_share",
+      "muscles." + name + ".delivered_inlet_duty", "muscles." + name + ".passiveness_delivered"};
+  const Summary known = summarize(log.table, m);
+  EXPECT_TRUE(known.find(keys[0]) && known.find(keys[1]) && known.find(keys[2]));
+  EXPECT_TRUE(coarse_valves(log.table).empty());
+
+  log.table.series.back().topic.description = signals::coarse_edges;
+  log.table.series[log.table.series.size() - 2].topic.description = signals::coarse_edges;
+  const Summary s = summarize(log.table, m);
+  for (const std::string& key : keys) EXPECT_EQ(s.find(key), nullptr) << key;
+  ASSERT_EQ(s.warnings.size(), known.warnings.size() + 1);
+  EXPECT_EQ(texts(coarse_valves(log.table)),
+            std::vector<std::string>{
+                "the rows of the table are too far apart to give the pulses of 2 valves: figures "
+                "of delivered duties, switchings and coils are absent"});
+}
+
 // A selection of one figure reads the channels of that figure, and has its bits.
 TEST(Wear, CanBeSelected) {
   Machine m = leg();

@@ -181,8 +181,8 @@ double mean_duty(const Figures& f, const robot::Muscle& m, const char* what) {
   return mean(f.record.column(topic(m, what)), f.record.sequence());
 }
 
-// Edges of a valve; not `logged` if the log or the machine lacks the valve. A valve that never
-// opens has an empty series.
+// Edges of a valve; not `logged` if the log or the machine lacks the valve, or if the log has its
+// state without its pulses. A valve that never opens has an empty series.
 struct Switching {
   bool logged = false;
   Edges electrical, delivered;
@@ -195,7 +195,7 @@ struct Switching {
 Switching switching(const Figures& f, const std::string& of, const char* which,
                     const std::string& valve) {
   const signals::Series* s = f.record.find("/valve/" + of + "/" + which + "/open");
-  if (!s || s->columns.empty() || valve.empty()) return {};
+  if (!s || s->columns.empty() || valve.empty() || signals::has_coarse_edges(s->topic)) return {};
   const MachineValve its = valve_of(f.machine, valve);
   Switching out{.logged = true,
                 .electrical = edges_of(s->time_ns, s->columns[0]),
@@ -362,7 +362,7 @@ void add_air(Figures& f) {
 }
 
 void add_valves(Figures& f) {
-  if (!f.wants("valves.")) return;
+  if (!f.wants("valves.") || !coarse_valves(f.record.table()).empty()) return;
   const std::size_t last = f.record.rows() - 1;
   const std::vector<Switching> valves = all_switching(f);
   if (valves.empty()) return;

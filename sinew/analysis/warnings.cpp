@@ -164,6 +164,17 @@ std::vector<Warning> rejected_commands(const signals::Table& table) {
   return out;
 }
 
+std::vector<Warning> coarse_valves(const signals::Table& table) {
+  const auto count = std::ranges::count_if(table.series, [](const signals::Series& series) {
+    return signals::has_coarse_edges(series.topic);
+  });
+  if (count == 0) return {};
+  return {{fmt::format("the rows of the table are too far apart to give the pulses of {} valve{}: "
+                       "figures of delivered duties, switchings and coils are absent",
+                       count, count == 1 ? "" : "s"),
+           {}}};
+}
+
 std::vector<Warning> cut_logs(const signals::Table& table) {
   if (table.complete) return {};
   return {{"the log was cut off or is damaged: this is what stands before", {}}};
@@ -193,6 +204,7 @@ std::vector<Warning> warnings(const signals::Table& table, const Machine& machin
     return all;
   }
   std::vector<Warning> all = unused_air(table, machine);
+  append(all, coarse_valves(table));
   append(all, unopened_valves(table, machine));
   append(all, ended_tracks(table, machine));
   append(all, joints_beyond_range(table, machine));
@@ -287,6 +299,7 @@ void add_unopened(const signals::Table& table, const Machine& machine, const rob
   const std::string name = inlet ? "inlet" : "exhaust";
   const signals::Series* edges = table.find(logged("/valve/" + muscle.name + "/" + name + "/open"));
   if (!edges || edges->columns.empty() || valve.shut <= 0) return;
+  if (signals::has_coarse_edges(edges->topic)) return;
   const Span log = span_of(table);
   if (!(log.to > log.from)) return;
   Pulses pulses = pulses_of(*edges, valve, log.from, log.to);

@@ -51,6 +51,9 @@ std::vector<Warning> implausible_sensors(const signals::Table&, const robot::Rob
 // Warns of commands that the supervisor rejected, and of ticks that came later than announced.
 std::vector<Warning> rejected_commands(const signals::Table&);
 
+// Warns of valves whose pulses are not in the log, as it was made from rows too far apart.
+std::vector<Warning> coarse_valves(const signals::Table&);
+
 // Warns of a log that ends before its run did.
 std::vector<Warning> cut_logs(const signals::Table&);
 

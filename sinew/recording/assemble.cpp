@@ -1,7 +1,6 @@
 #include "sinew/recording/assemble.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -9,131 +8,13 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/recording/columns.h"
+#include "sinew/recording/sampled_valves.h"
 #include "sinew/recording/stamp.h"
 #include "sinew/units/quantity.h"
 #include "sinew/units/spelling.h"
 #include "sinew/units/unit.h"
 
 namespace sinew::recording {
-namespace {
-
-// Returns "joint_elbow_angle" for "Joint elbow-angle".
-std::string words_of(std::string_view name) {
-  std::string out;
-  for (const char c : name) {
-    const auto letter = static_cast<unsigned char>(c);
-    if (std::isalnum(letter) != 0 || letter >= 0x80) {
-      out += static_cast<char>(std::tolower(letter));
-    } else if (!out.empty() && out.back() != '_') {
-      out += '_';
-    }
-  }
-  while (out.ends_with('_')) out.pop_back();
-  return out;
-}
-
-// Returns the parts of a topic between its slashes.
-std::vector<std::string> parts_of(std::string_view topic) {
-  std::vector<std::string> out;
-  while (!topic.empty()) {
-    topic.remove_prefix(1);
-    const std::size_t end = std::min(topic.find('/'), topic.size());
-    out.emplace_back(topic.substr(0, end));
-    topic.remove_prefix(end);
-  }
-  return out;
-}
-
-std::string joined(std::span<const std::string> parts) {
-  std::string out;
-  for (const std::string& part : parts) out += (out.empty() ? "" : "_") + words_of(part);
-  return out;
-}
-
-std::string name_of_field(const signals::Topic& topic, std::size_t field) {
-  return topic.fields.size() > 1 ? topic.name + "." + topic.fields[field].name : topic.name;
-}
-
-bool has_unit(std::string_view unit, const signals::Topic& topic, std::size_t field) {
-  const std::string& channel_unit = topic.fields[field].unit;
-  if (unit == channel_unit) return true;
-  if (unit.empty()) return channel_unit == "1" || channel_unit == "count";
-  return std::holds_alternative<FileUnit>(
-      file_unit(std::string(unit), quantity_unit(topic, field), units::atmosphere));
-}
-
-}  // namespace
-
-std::string quantity_unit(const signals::Topic& topic, std::size_t field) {
-  const std::string& unit = topic.fields[field].unit;
-  if (unit != "Pa") return unit;
-  return is_gauge_channel(topic.name) ? "Pa gauge" : "Pa abs";
-}
-
-ChannelNames::ChannelNames(std::span<const signals::Topic> topics) : topics_(topics) {
-  for (std::size_t t = 0; t < topics.size(); ++t)
-    for (std::size_t f = 0; f < topics[t].fields.size(); ++f) {
-      targets_.push_back({t, f});
-      names_.push_back(name_of({t, f}));
-      add_aliases({t, f});
-    }
-}
-
-void ChannelNames::add_aliases(Target target) {
-  std::vector<std::string> parts = parts_of(topics_[target.topic].name);
-  if (parts.size() < 2) return;
-  for (const char* not_measured : {"true", "desired", "plan", "low_level", "recorded"})
-    if (parts.front() == not_measured) return;
-  const bool of_sensor = parts.front() == "sensor" && parts.back() == "count";
-  if (topics_[target.topic].fields.size() > 1)
-    parts.push_back(topics_[target.topic].fields[target.field].name);
-  const std::span<const std::string> all(parts);
-  const auto add = [&](std::string words, bool counts_only = false) {
-    aliases_.push_back({std::move(words), target, counts_only});
-  };
-  add(joined(all));
-  if (parts.size() > 2) add(joined(all.subspan(1)));
-  if (of_sensor) return add(joined(all.subspan(1, parts.size() - 2)), true);
-  if (parts.back() == "open") {
-    add(joined(all.first(parts.size() - 1)));
-    return add(joined(all.subspan(1, parts.size() - 2)));
-  }
-  add(words_of(parts.back()));
-}
-
-std::optional<Target> ChannelNames::exact(std::string_view name) const {
-  const auto at = std::ranges::find(names_, name);
-  if (at != names_.end()) return targets_[static_cast<std::size_t>(at - names_.begin())];
-  // Logs may name the single field of a topic as well.
-  if (!name.ends_with(".value")) return std::nullopt;
-  name.remove_suffix(6);
-  const auto whole = std::ranges::find(names_, name);
-  if (whole == names_.end()) return std::nullopt;
-  return targets_[static_cast<std::size_t>(whole - names_.begin())];
-}
-
-std::optional<Target> ChannelNames::obvious(std::string_view name, std::string_view unit) const {
-  const std::string words = words_of(name);
-  const std::string last = words_of(name.substr(name.find_last_of("./") + 1));
-  for (const std::string& asked : {words, last}) {
-    std::optional<Target> found;
-    bool several = false;
-    for (const Alias& alias : aliases_) {
-      if (alias.words != asked || (alias.counts_only && unit != "count")) continue;
-      if (!has_unit(unit, topics_[alias.target.topic], alias.target.field)) continue;
-      several = several || (found && *found != alias.target);
-      found = alias.target;
-    }
-    if (several) return std::nullopt;
-    if (found) return found;
-  }
-  return std::nullopt;
-}
-
-std::string ChannelNames::name_of(Target target) const {
-  return name_of_field(topics_[target.topic], target.field);
-}
-
 namespace {
 
 // --- matching of columns to channels, and conversion of their numbers ---
@@ -465,6 +346,8 @@ class Assembler {
     }
     set_clocks();
     for (std::size_t t = 0; t < matches_.topics.size(); ++t) topic(t);
+    refuse_empty_files();
+    mark_coarse_edges();
     report_gaps();
     add_notes();
     return std::move(out_);
@@ -575,7 +458,7 @@ class Assembler {
 
   std::int64_t zero_of(std::size_t f, const Span& span, std::optional<std::int64_t> wall) const {
     if (wall) return *wall - *origin_of(f);
-    if (!mapping_.clock.start.empty()) return nanoseconds_of(mapping_.clock.start, "clock.start");
+    if (!mapping_.clock.start.empty()) return nanoseconds_of(mapping_.clock.start, "start");
     return span.first >= 0 && span.first < own_start ? 0 : span.first;
   }
 
@@ -652,7 +535,9 @@ class Assembler {
       bool any = false;
       for (std::size_t k = 0; k < fields.size(); ++k) {
         values[k] = fields[k] ? value(*fields[k], i) : std::nan("");
-        any = any || std::isfinite(values[k]);
+        if (!std::isfinite(values[k])) continue;
+        any = true;
+        refuse_impossible(*fields[k], values[k], i);
       }
       const std::int64_t time = times_[f](times[i]);
       if (!any || time < 0) {
@@ -670,6 +555,54 @@ class Assembler {
     if (late > 0)
       out_.notes.push_back(fmt::format("{}: {}: {} samples at the time of the one before",
                                        files_[f].file, series.topic.name, late));
+  }
+
+  // Refuses a file whose columns have no value in the log.
+  void refuse_empty_files() const {
+    for (std::size_t f = 0; f < files_.size(); ++f) {
+      const Span span = span_of(f);
+      const ImportSummary& summary = out_.files[f];
+      if (summary.values > 0 || (!span.any() && summary.left_out == 0)) continue;
+      const auto seconds = [](std::int64_t ns) {
+        return units::format_number(static_cast<double>(ns) / nanoseconds);
+      };
+      const std::string& start = mapping_.clock.start;
+      if (times_[f](span.last) >= 0)
+        config::fail({files_[f].file, 0, 0}, "",
+                     fmt::format("no number in the {} values of the columns that are channels",
+                                 summary.left_out),
+                     "a finite number in at least one row");
+      const std::string last = seconds(span.last) + " s of its clock, before the log's time 0";
+      config::fail({start.empty() ? files_[f].file : "start", 0, 0}, "",
+                   start.empty() ? "the last sample at " + last
+                                 : fmt::format("{}, and the last sample of {} at {}",
+                                               config::in_quotes(start), files_[f].file, last),
+                   "a time 0 within the recording");
+    }
+  }
+
+  // Refuses a value that the channel's quantity cannot have.
+  void refuse_impossible(const Matched& of, double value, std::size_t row) const {
+    const signals::Topic& topic = matches_.topics[of.target.topic];
+    if (topic.name.starts_with("/recorded/")) return;
+    const bool is_pressure = topic.fields[of.target.field].unit == "Pa";
+    const double vacuum = is_gauge_channel(topic.name) ? -joining_.atmosphere : 0.0;
+    constexpr double rounding = 1;  // of a vacuum in another unit [Pa]
+    const bool below_vacuum = is_pressure && value < vacuum - rounding;
+    const bool is_no_duty = topic.name.ends_with("_duty") && (value < 0 || value > 1);
+    if (!below_vacuum && !is_no_duty) return;
+    const Recorded& file = files_[of.file];
+    const RecordedColumn& column = file.columns[of.column];
+    config::fail(
+        {file.file, column.stated ? 0 : file.header_line, column.stated ? 0 : column.column},
+        name_of_field(topic, of.target.field),
+        fmt::format(
+            "{}{} at {} s", units::format_number(column.values[row]),
+            column.unit.empty() ? "" : " " + column.unit,
+            units::format_number(static_cast<double>(clock_of(of).time_ns[row]) / nanoseconds)),
+        is_pressure ? "a pressure that is not below the vacuum" : "a duty from 0 to 1",
+        fmt::format("another unit, or an offset, of the column {}",
+                    config::in_quotes(column.name)));
   }
 
   // Stores only changes of the state; the valve is shut before the first edge.
@@ -696,9 +629,31 @@ class Assembler {
     if (other)
       out_.notes.push_back(fmt::format("{}: {}: values of 0.5 and more were taken as open",
                                        files_[of.file].file, series.topic.name));
-    if (files_[of.file].kind == "MCAP") return;
-    sampled_edges_ = true;
-    series.topic.description = "edges as the rows of a table show them";
+  }
+
+  // Marks the valves of tables whose rows are too far apart to give their pulses.
+  void mark_coarse_edges() {
+    for (std::size_t f = 0; f < files_.size(); ++f) {
+      if (files_[f].kind == "MCAP") continue;
+      for (std::size_t c = 0; c < files_[f].clocks.size(); ++c) mark_coarse_edges(f, c);
+    }
+  }
+
+  void mark_coarse_edges(std::size_t file, std::size_t clock) {
+    const Clock& rows = files_[file].clocks[clock];
+    SampledValves valves(rows.time_ns, times_[file].scale);
+    std::vector<std::string> topics;
+    for (const Matched& m : matches_.columns) {
+      const signals::Topic& topic = matches_.topics[m.target.topic];
+      const RecordedColumn& column = files_[file].columns[m.file == file ? m.column : 0];
+      if (m.file != file || column.clock != clock || !is_edges(topic)) continue;
+      topics.push_back(topic.name);
+      valves.add([&](std::size_t row) { return value(m, row); });
+    }
+    if (valves.give_pulses(joining_.pulse_period)) return;
+    for (signals::Series& series : out_.table.series)
+      if (std::ranges::find(topics, series.topic.name) != topics.end())
+        series.topic.description = signals::coarse_edges;
   }
 
   double value(const Matched& m, std::size_t i) const {
@@ -727,10 +682,6 @@ class Assembler {
             fmt::format("{}: {} of {} values left out: empty, not finite, or before time 0",
                         file.file, file.left_out, file.left_out + file.values));
     }
-    if (sampled_edges_)
-      out_.notes.push_back(
-          "valves: a table gives their edges only to within one row; duty, switching and energy "
-          "are computed from these, not measured");
   }
 
   const std::vector<Recorded>& files_;
@@ -741,7 +692,6 @@ class Assembler {
   std::vector<TimeConversion> times_;                 // one per file
   std::vector<std::optional<std::int64_t>> origins_;  // one per file, on one clock [ns]
   signals::PageFile pages_ = signals::PageFile::make();
-  bool sampled_edges_ = false;
 };
 
 // Requires that no file occurs twice and that every shift names a file.

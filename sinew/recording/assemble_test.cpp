@@ -184,6 +184,42 @@ TEST_F(AssembleTest, ValvesHaveTheEdgesWhereTheyChange) {
   EXPECT_EQ(s.columns[0][1], 0);
 }
 
+// Rows with a valve that is open for the first `open` ticks of each period of 100 ticks.
+std::string pulses(int open, const std::vector<int>& ticks) {
+  std::string out = "time [s],/valve/flexor/inlet/open [1]\n";
+  for (const int tick : ticks)
+    out += fmt::format("{},{}\n", 1e-4 * tick, tick % 100 < open ? 1 : 0);
+  return out;
+}
+
+std::vector<int> rows_every(int ticks) {
+  std::vector<int> out;
+  for (int tick = 0; tick < 1000; tick += ticks) out.push_back(tick);
+  return out;
+}
+
+// A row of a tick, rows much shorter than period and pulses, and a list of edges give the pulses.
+// Rows of a whole period show a pulsed valve as always open.
+TEST_F(AssembleTest, PulsesNeedRowsThatAreMuchShorter) {
+  std::vector<int> edges;
+  for (int period = 0; period < 10; ++period)
+    edges.insert(edges.end(), {100 * period, 100 * period + 30});
+  const auto is_coarse = [&](const std::string& text, const Mapping& mapping = {}) {
+    return signals::has_coarse_edges(
+        series(take({put("a.csv", text)}, mapping), "/valve/flexor/inlet/open").topic);
+  };
+  EXPECT_FALSE(is_coarse(pulses(1, rows_every(1))));
+  EXPECT_FALSE(is_coarse(pulses(30, rows_every(5))));
+  EXPECT_FALSE(is_coarse(pulses(40, rows_every(10))));
+  EXPECT_FALSE(is_coarse(pulses(30, edges)));
+  EXPECT_TRUE(is_coarse(pulses(30, rows_every(10)))) << "three rows for a pulse";
+  EXPECT_TRUE(is_coarse(pulses(100, rows_every(20)))) << "open throughout, as far as it is seen";
+  EXPECT_TRUE(is_coarse(pulses(30, rows_every(100))));
+  Mapping slow;
+  slow.clock.scale = 2;
+  EXPECT_TRUE(is_coarse(pulses(40, rows_every(10)), slow));
+}
+
 TEST_F(AssembleTest, WhatIsNoNumberIsLeftOutAndCounted) {
   const AssembledRecording a =
       take({put("a.csv", "time [s],elbow_angle [rad]\n0,1\n0.01,\n0.02,NaN\n0.03,4\n")});
@@ -470,6 +506,19 @@ TEST_F(AssembleTest, ReportsWhatIsWrongAndWhatToDo) {
   wrong(offset, {"Winkel.offset", "3 N"});
   wrong(angle_is("Winkel"), {"\"b.csv\"", "a.csv"}, {.shifts = {{"b.csv", "1 s"}}});
   wrong({}, {"no column that is a channel", "Winkel, F, p"});
+
+  const auto refused = [&](const std::string& text, const Mapping& m, const std::string& part) {
+    const std::string error = error_of({put("b.csv", text)}, m);
+    EXPECT_NE(error.find(part), std::string::npos) << part << "\nin: " << error;
+  };
+  refused("time [s],elbow_angle [deg]\n0,NaN\n0.01,\n", {}, "no number in the 2 values");
+  Mapping late;
+  late.clock.start = "100 s";
+  refused("time [s],elbow_angle [deg]\n0,1\n0.01,2\n", late,
+          "start: found \"100 s\", and the last sample of");
+  const std::string pressure = "time [s],flexor_pressure [bar gauge]\n0,1\n0.01,";
+  refused(pressure + "-3\n", {}, "/muscle/flexor/pressure: found -3 bar gauge at 0.01 s");
+  EXPECT_EQ(error_of({put("vacuum.csv", pressure + "-1.01325\n")}), "no error");
 
   const std::string none = error_of({put("n.csv", "Winkel [deg]\n1\n2\n")}, angle_is("Winkel"));
   EXPECT_NE(none.find("time"), std::string::npos) << none;

@@ -63,6 +63,12 @@ void check_mapping(const Mapping& mapping, const std::string& file) {
         fmt::format("{} together with clock.column {}", config::in_quotes(mapping.clock.rate),
                     config::in_quotes(mapping.clock.column)),
         "one of the two: a column with times, or a rate");
+  // A file's own scale was checked when it was read.
+  const double scale = mapping.clock.scale;
+  if (!(scale >= least_clock_scale && scale <= most_clock_scale))
+    config::fail(
+        {"clock_scale", 0, 0}, "", units::format_number(scale),
+        fmt::format("from {:g} to {:g}: {}", least_clock_scale, most_clock_scale, clock_scale_why));
   problems.finish();
 }
 

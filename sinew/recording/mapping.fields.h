@@ -40,9 +40,9 @@ void fields(Visitor& v, ClockMapping& c) {
       c.rate);
   v.number({.name = "scale",
             .unit = "1",
-            .min = 0.5,
-            .max = 2,
-            .why = "a clock that errs by more has another unit",
+            .min = least_clock_scale,
+            .max = most_clock_scale,
+            .why = clock_scale_why,
             .optional = true,
             .doc = "true seconds per second of this clock"},
            c.scale);

@@ -33,6 +33,10 @@ struct TableSettings {
   int part = 0;  // index of the recording in the file; 0: the only one; not stored
 };
 
+// Range of a clock's scale, and its reason.
+inline constexpr double least_clock_scale = 0.5, most_clock_scale = 2;
+inline constexpr const char* clock_scale_why = "a clock that errs by more has another unit";
+
 // Source and scale of a recording's times.
 struct ClockMapping {
   std::string column;  // with the times; empty: the only likely column

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -101,6 +102,11 @@ TEST_F(MappingTest, ReportsWhatIsWrong) {
         "one column for it: a or b");
   wrong(begin + "[clock]\ncolumn = \"t\"\nrate = \"1 Hz\"\n", "one of the two");
   wrong(begin + "[clock]\nscale = 1000\n", "clock.scale");
+  for (const double scale : {0.0, -1.0, 0.4, 1000.0, std::nan("")}) {
+    Mapping stated;
+    stated.clock.scale = scale;
+    EXPECT_THROW(check_mapping(stated, ""), config::Error) << scale;
+  }
 }
 
 }  // namespace

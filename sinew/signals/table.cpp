@@ -11,6 +11,8 @@ bool is_of_valve(std::string_view topic) {
   return topic.starts_with("/valve/");
 }
 
+bool has_coarse_edges(const Topic& topic) { return topic.description == coarse_edges; }
+
 const Series* Table::find(std::string_view topic) const {
   for (const Series& s : series)
     if (s.topic.name == topic) return &s;

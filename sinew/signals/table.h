@@ -47,6 +47,11 @@ using TopicNames = std::set<std::string, std::less<>>;
 // record single edges.
 bool is_of_valve(std::string_view topic);
 
+// Description of a valve's topic whose edges come from rows too far apart to give its pulses, and
+// whether a topic has it.
+inline constexpr std::string_view coarse_edges = "edges as the rows of a table show them";
+bool has_coarse_edges(const Topic& topic);
+
 struct Table {
   std::vector<Series> series;
   bool complete = true;  // false: read from a log that was cut off

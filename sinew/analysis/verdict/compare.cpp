@@ -214,7 +214,8 @@ std::vector<ChannelDifference> differences(const signals::Table& a, const signal
   std::vector<ChannelDifference> out;
   for (const signals::Series& sa : a.series) {
     const signals::Series* sb = b.find(sa.topic.name);
-    if (!sb) continue;
+    if (!sb || signals::has_coarse_edges(sa.topic) || signals::has_coarse_edges(sb->topic))
+      continue;
     for (std::size_t f = 0; f < sa.topic.fields.size(); ++f) {
       const signals::Field& field = sa.topic.fields[f];
       if (!has_field(*sb, field)) continue;

@@ -186,8 +186,7 @@ void save_mapping(const ImportRequest& request, const recording::AssembledRecord
 }
 
 // Returns the recording in its files, mapped to the experiment's channels.
-recording::AssembledRecording read(const ImportRequest& request,
-                                   const std::vector<signals::Topic>& topics, double atmosphere) {
+recording::AssembledRecording read(const ImportRequest& request, const experiment::Experiment& e) {
   recording::Mapping mapping = request.mapping;
   if (!request.mapping_file.empty())
     mapping = recording::merged(recording::load_mapping(request.mapping_file), request.mapping);
@@ -197,9 +196,11 @@ recording::AssembledRecording read(const ImportRequest& request,
     files.push_back(recording::read_recording(file, mapping, request.read));
   recording::check_stated(request.values, request.files);
   for (recording::Recorded& file : files) recording::add_stated(request.values, file);
-  recording::AssembledRecording out = recording::assemble(
-      files, mapping, topics,
-      {.at_end = request.join_at_end, .shifts = request.shifts, .atmosphere = atmosphere});
+  recording::Joining joining{
+      .at_end = request.join_at_end, .shifts = request.shifts, .atmosphere = e.air.atmosphere};
+  if (e.stand) joining.pulse_period = e.stand->drive.period;
+  recording::AssembledRecording out =
+      recording::assemble(files, mapping, importable_topics(e), joining);
   // A mapping describes columns, so stated values are removed from it.
   for (const std::string& text : request.values)
     std::erase_if(out.used.columns, [name = recording::stated_in(text).name](const auto& c) {
@@ -346,7 +347,7 @@ StoredRun store_imported(const signals::Table& table, const experiment::Experime
 StoredRun import_run(const ImportRequest& request, const Notices& notices) {
   refuse_early(request);
   const experiment::Experiment e = experiment::load(request.experiment, request.sets);
-  recording::AssembledRecording read_in = read(request, importable_topics(e), e.air.atmosphere);
+  recording::AssembledRecording read_in = read(request, e);
   const auto filled = fill_channels(read_in.table, e.robot, e.air.atmosphere, run::topics(e));
   report(read_in, filled, notices);
   if (!e.stand && !read_in.table.find("/plan/phase") && e.robot.legs.empty())
