@@ -215,8 +215,32 @@ Node set_node(std::string_view key, std::string_view text) {
   return value;
 }
 
+// Returns an element of an existing list, "polynomial[1]" or "fault[0]".
+Node& element(Node& table, std::string_view segment, const std::string& key) {
+  const std::size_t bracket = std::min(segment.find('['), segment.size());
+  Node* list = table.find(segment.substr(0, bracket));
+  if (list && list->is_value_table()) list = list->find("value");
+  if (!list || list->kind != Node::Kind::array || list->children.empty())
+    fail(set_location(), key, list ? shown(*list) : "nothing", "a list to set an element of");
+  std::size_t index = 0;
+  const char* last = segment.data() + segment.size() - 1;
+  const char* first = segment.data() + std::min(bracket + 1, segment.size() - 1);
+  const auto [end, error] = std::from_chars(first, last, index);
+  if (error != std::errc{} || end != last || index >= list->children.size())
+    fail(
+        set_location(), key, in_quotes(segment.substr(bracket)),
+        list->children.size() == 1 ? "[0]" : fmt::format("[0] to [{}]", list->children.size() - 1));
+  return list->children[index];
+}
+
 // Returns the table of the next segment. Creates it unless its name is probably a typing error.
 Node& set_step(Node& table, std::string_view segment, const std::string& key) {
+  if (segment.ends_with(']')) {
+    Node& one = element(table, segment, key);
+    if (one.is_table()) return one;
+    fail(set_location(), key, fmt::format("{} is {}", segment, shown(one)),
+         "a table to set a key in");
+  }
   if (Node* there = table.find(segment)) {
     if (there->is_table()) return *there;
     fail(set_location(), key, fmt::format("{} is {}", segment, shown(*there)),
@@ -233,20 +257,10 @@ Node& set_step(Node& table, std::string_view segment, const std::string& key) {
 // Replaces an element of an existing list, "polynomial[1]".
 void set_element(Node& table, std::string_view segment, std::string_view text,
                  const std::string& key) {
-  const std::size_t bracket = segment.find('[');
-  Node* list = table.find(segment.substr(0, bracket));
-  if (list && list->is_value_table()) list = list->find("value");
-  if (!list || list->kind != Node::Kind::array)
-    fail(set_location(), key, list ? shown(*list) : "nothing", "a list to set an element of");
-  std::size_t index = 0;
-  const char* last = segment.data() + segment.size() - 1;
-  const auto [end, error] = std::from_chars(segment.data() + bracket + 1, last, index);
-  if (error != std::errc{} || end != last || index >= list->children.size())
-    fail(set_location(), key, in_quotes(segment.substr(bracket)),
-         fmt::format("[0] to [{}]", list->children.size() - 1));
+  Node& old = element(table, segment, key);
   Node value = set_node("", text);
-  value.replaced = written(list->children[index]);
-  list->children[index] = std::move(value);
+  value.replaced = written(old);
+  old = std::move(value);
 }
 
 // --- valves of a catalogue ---
@@ -311,10 +325,12 @@ std::string file_of(const Node& entry, const std::string& key) {
   const fs::path folder = entry.where.line > 0 ? fs::path(entry.where.file).parent_path() : "";
   const std::string path = (folder / entry.text).lexically_normal().string();
   std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored))
+  if (fs::is_regular_file(path, ignored)) return path;
+  const std::string own = find_shipped(entry.text);
+  if (own.empty())
     fail(entry.where, key, in_quotes(entry.text), "a file that exists",
          "the path: looked for " + path);
-  return path;
+  return own;
 }
 
 std::string_view format_kind(const Node& root) {

@@ -59,8 +59,9 @@ class Composer {
   std::map<std::vector<std::string>, Node> read_;  // keys: path, settings of `robot`
 };
 
-// Returns the path of the file that an entry names, relative to the file with the entry. Throws
-// Error that names the entry's `key` if there is no such file.
+// Returns the path of the file that an entry names, relative to the file with the entry, or else of
+// the shipped file of that name. Throws Error that names the entry's `key` if there is no such
+// file.
 std::string file_of(const Node& entry, const std::string& key);
 
 // Returns "experiment" for format = "sinew.experiment/1"; empty if there is no such key.
@@ -74,8 +75,8 @@ bool is_on_stand(const Node& root);
 // stand.
 std::string_view tables_kind(const Node& root);
 
-// Sets "key=value" in the tree: true, false, a number, a TOML list or table, else a text. A key
-// with an index at its end, "phase.swing.y.polynomial[1]", sets an element of an existing list.
+// Sets "key=value" in the tree: true, false, a number, a TOML list or table, else a text. An index,
+// "phase.swing.y.polynomial[1]" or "fault[0].at", is that of an element of an existing list.
 void apply_set(Node& root, std::string_view set);
 
 }  // namespace sinew::config

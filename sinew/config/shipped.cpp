@@ -53,17 +53,23 @@ fs::path shipped_folder() {
        "the robots and experiments that come with Sinew", "SINEW_SHARE=FOLDER in the environment");
 }
 
-std::string or_shipped(const std::string& name) {
+std::string find_shipped(const std::string& name) {
   constexpr const char* folders[] = {"robots/", "experiments/", "studies/", "data/"};
-  const bool is_below = std::ranges::any_of(folders, [&](auto f) { return name.starts_with(f); });
+  if (std::ranges::none_of(folders, [&](auto f) { return name.starts_with(f); })) return "";
   std::error_code none;
-  if (!is_below || fs::exists(name, none)) return name;
   try {
     const fs::path own = shipped_folder() / name;
-    return fs::is_regular_file(own, none) ? own.string() : name;
+    return fs::is_regular_file(own, none) ? own.string() : "";
   } catch (const Error&) {
-    return name;  // nothing is installed near the program: the command names what is missing
+    return "";  // nothing is installed near the program: the command names what is missing
   }
+}
+
+std::string or_shipped(const std::string& name) {
+  std::error_code none;
+  if (fs::exists(name, none)) return name;
+  const std::string own = find_shipped(name);
+  return own.empty() ? name : own;
 }
 
 }  // namespace sinew::config

@@ -325,9 +325,11 @@ std::string relative_to(const fs::path& from, const fs::path& file) {
   return fs::weakly_canonical(fs::absolute(file)).lexically_relative(folder).string();
 }
 
-// Returns a path relative to the new file if the user gave it; a shipped file has its full path.
-std::string reference(const Subject& subject, const fs::path& from, bool named) {
-  return named ? relative_to(from, subject.file) : subject.file.string();
+// Returns the file's path relative to the folder `from`; a shipped file has its full path.
+std::string reference(const fs::path& from, const fs::path& file) {
+  const bool is_shipped =
+      file.is_absolute() && relative_to(config::shipped_folder(), file)[0] != '.';
+  return is_shipped ? file.string() : relative_to(from, file);
 }
 
 struct Draft {
@@ -349,7 +351,7 @@ Draft draft(const Task& task, const std::string& part, const fs::path& file) {
   choose_units(out.text, task.options.metric);
   if (const std::string& muscle = task.options.actuator; part == "robot" && !muscle.empty())
     out.text = with_muscle(std::move(out.text), muscle,
-                           config::toml_string(relative_to(file.parent_path(), muscle)),
+                           config::toml_string(reference(file.parent_path(), muscle)),
                            task.options.metric);
   if (task.kind == "actuator") replace_all(out.text, "= \"bpa\"", "= \"NEW\"");
   name_joints(out.text, task.subject.joints);
@@ -358,9 +360,8 @@ Draft draft(const Task& task, const std::string& part, const fs::path& file) {
     const std::string key = is_study(part) ? "experiment = " : "robot  = ";
     const std::string quoted = is_study(part) ? "\"experiment.toml\"" : "\"robot.toml\"";
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-    replace_all(
-        out.text, key + quoted,
-        key + config::toml_string(reference(task.subject, folder, !task.options.of.empty())));
+    replace_all(out.text, key + quoted,
+                key + config::toml_string(reference(folder, task.subject.file)));
   }
   return out;
 }
@@ -388,7 +389,10 @@ std::vector<Draft> drafts(const std::string& kind, const std::string& name,
 
 std::span<const std::string_view> new_kinds() { return kinds_of_files; }
 
-NewFiles write_new(const std::string& kind, const std::string& name, const NewOptions& options) {
+NewFiles write_new(const std::string& kind, const std::string& name, const NewOptions& given) {
+  NewOptions options = given;
+  options.of = config::or_shipped(options.of);
+  options.actuator = config::or_shipped(options.actuator);
   require_new_kind(kind);
   require_name(name);
   const std::vector<Draft> all = drafts(kind, name, options);

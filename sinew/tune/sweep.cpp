@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/shipped.h"
 #include "sinew/host/side_by_side.h"
 
 namespace sinew::tune {
@@ -290,7 +291,11 @@ class Work {
 }  // namespace
 
 std::string experiment_path(const Sweep& s, const std::string& file) {
-  return (std::filesystem::path(s.experiment).parent_path() / file).lexically_normal().string();
+  const auto beside = (std::filesystem::path(s.experiment).parent_path() / file).lexically_normal();
+  std::error_code none;
+  const std::string shipped =
+      std::filesystem::exists(beside, none) ? "" : config::find_shipped(file);
+  return shipped.empty() ? beside.string() : shipped;
 }
 
 std::vector<std::string> keys(const Sweep& s) {
