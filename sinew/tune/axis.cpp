@@ -178,7 +178,7 @@ Axis parse_ends(std::string_view text, std::string_view setting, const std::stri
     refuse(setting, text, std::string(form.words), example);
   const std::string_view ends = trimmed(text.substr(equals + 1));
   const std::vector<double> numbers = between_colons(axis, ends, form);
-  refuse_equal_ends(numbers, ends, form);
+  if (!(numbers[0] < numbers[1])) refuse(setting, text, "a low end below the high end", example);
   for (const double number : numbers) axis.values.push_back(number_value(number, axis.unit));
   return axis;
 }

@@ -61,16 +61,14 @@ Value Range::at(double share) const {
   const double from = *axis.values.front().number, to = *axis.values.back().number;
   if (scale == Scale::log) return axis.at(from * std::pow(to / from, share));
   if (scale == Scale::linear) return axis.at(from + share * (to - from));
-  const double way = to < from ? -1 : 1;
-  return axis.at(from + way * std::floor(share * (std::fabs(to - from) + 1)));
+  return axis.at(from + std::floor(share * (to - from + 1)));
 }
 
 double Range::share_of(double number) const {
   const double from = *axis.values.front().number, to = *axis.values.back().number;
   if (scale == Scale::log) return std::log(number / from) / std::log(to / from);
   if (scale == Scale::linear) return (number - from) / (to - from);
-  const double way = to < from ? -1 : 1;
-  return (way * (number - from) + 0.5) / (std::fabs(to - from) + 1);
+  return (number - from + 0.5) / (to - from + 1);
 }
 
 Range parse_range(std::string_view text, std::string_view setting) {

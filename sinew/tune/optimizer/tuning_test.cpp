@@ -81,7 +81,7 @@ TEST_F(TuningTest, ReportsWhereAndWhatIsWrong) {
           "t.toml:4:9: tune: found \"0.1 %/count\"; expected KEY=from:to");
   refuses("tune = [\"joint.lever.angle_gain", "tune = [\"joint.lever.angel_gain", "angle_gain");
   refuses("tune = [\"joint.lever.angle_gain=0.01:0.3 %/count log\"]",
-          "tune = [\"joint.lever.angle_gain=0.3:0.3 %/count\"]", "two different ends");
+          "tune = [\"joint.lever.angle_gain=0.3:0.3 %/count\"]", "a low end below the high end");
   refuses(">= 50 %\"", ">= 50 %\", \"joints.lever.passiveness < 0.4\"",
           "expected limits that a number can keep together");
   refuses("[deg]", "[lbf]", "t.toml:5:13: minimize: found");
