@@ -17,6 +17,7 @@
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/delay.h"
+#include "sinew/gas/pulse.h"
 #include "sinew/gas/valve.h"
 #include "sinew/gas/valve_flow.h"
 #include "sinew/json/json.h"
@@ -25,7 +26,6 @@
 #include "sinew/run/setup/actuator_text.h"
 #include "sinew/run/setup/stance.h"
 #include "sinew/run/setup/valve_text.h"
-#include "sinew/signals/pulse.h"
 
 namespace sinew::cli {
 
@@ -118,7 +118,7 @@ std::vector<run::Delivered> deliveries(const gas::Valve& valve, const ValveOptio
   constexpr config::Range share = config::from_zero(1, "a share of the period");
   for (const double duty :
        config::range_setting("--duty", options.duty, "1", units::atmosphere, share).si)
-    out.push_back({duty, signals::delivered_duty(duty, period, delays.opening, delays.closing)});
+    out.push_back({duty, gas::delivered_duty(duty, period, delays.opening, delays.closing)});
   return out;
 }
 

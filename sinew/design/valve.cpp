@@ -8,7 +8,7 @@
 
 #include "sinew/config/setting.h"
 #include "sinew/gas/orifice.h"
-#include "sinew/signals/pulse.h"
+#include "sinew/gas/pulse.h"
 #include "sinew/units/constants.h"
 #include "sinew/units/quantity.h"
 
@@ -247,7 +247,7 @@ class Judge {
     if (out_.opening->low >= need_.opening_below) return;  // no pulse opens it
     const Bounds rate{fastest_rate(task_, slow_).low, fastest_rate(task_, fast_).high};
     const auto open = [&](double opening, double closing) {
-      return signals::delivered_open_time(task_.duty.low, 1.0 / task_.frequency, opening, closing);
+      return gas::delivered_open_time(task_.duty.low, 1.0 / task_.frequency, opening, closing);
     };
     out_.step = {rate.low * published_.flow.low * open(out_.opening->high, out_.closing->low),
                  rate.high * published_.flow.high * open(out_.opening->low, out_.closing->high)};
@@ -333,10 +333,9 @@ std::vector<DeliveredShare> delivered_shares(const ValveChoice& valve, double fr
   const double period = 1.0 / frequency;
   for (int i = 0; i <= 100; ++i) {
     const double duty = 0.01 * i;
-    out.push_back(
-        {duty,
-         {signals::delivered_duty(duty, period, valve.opening->high, valve.closing->low),
-          signals::delivered_duty(duty, period, valve.opening->low, valve.closing->high)}});
+    out.push_back({duty,
+                   {gas::delivered_duty(duty, period, valve.opening->high, valve.closing->low),
+                    gas::delivered_duty(duty, period, valve.opening->low, valve.closing->high)}});
   }
   return out;
 }

@@ -4,7 +4,7 @@
 
 #include "sinew/gas/delay.h"
 #include "sinew/gas/orifice.h"
-#include "sinew/signals/pulse.h"
+#include "sinew/gas/pulse.h"
 #include "sinew/units/constants.h"
 #include "thesis/figures/thesis.h"
 
@@ -60,7 +60,7 @@ Exhibit figure_3_13(const Sources& from) {
             .source = "opens after 4 ms, shuts after 1 ms: robots/leg/valves.toml [valve.758]"};
     for (double d = 0; d <= 100; d += 0.5) {
       c.xs.push_back(d);
-      c.ys.push_back(100 * signals::delivered_duty(d / 100, 1 / f, delays.opening, delays.closing));
+      c.ys.push_back(100 * gas::delivered_duty(d / 100, 1 / f, delays.opening, delays.closing));
     }
     curves.push_back(std::move(c));
   }

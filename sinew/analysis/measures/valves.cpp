@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sinew/gas/delay.h"
+
 namespace sinew::analysis {
 
 namespace {
@@ -141,11 +143,9 @@ Edges edges_of(const signals::Times& time_ns, const signals::Column& open) {
 }
 
 Edges delivered(const Edges& electrical, double opening_delay, double closing_delay) {
-  // Largest difference of times that count as simultaneous  [s].
-  constexpr double simultaneous = 1e-9;
   Edges out(electrical.file());
   for (const Edge& e : electrical) {
-    const bool too_early = !out.empty() && out.back().time >= e.time - simultaneous;
+    const bool too_early = !out.empty() && out.back().time >= e.time - gas::Shutter::simultaneous;
     if (too_early) {
       out.pop_back();
     } else {

@@ -4,10 +4,10 @@
 
 #include "sinew/config/valve_timing.h"
 #include "sinew/gas/delay.h"
+#include "sinew/gas/pulse.h"
 #include "sinew/identify/valve/edges.h"
 #include "sinew/identify/valve/fixtures_test.h"
 #include "sinew/identify/valve/timing.h"
-#include "sinew/signals/pulse.h"
 
 namespace sinew::identify::duty_test {
 namespace {
@@ -25,7 +25,7 @@ Measured duty_map(double opening, double closing, std::initializer_list<double> 
       if (d < from - 1e-9 || d > to + 1e-9) continue;
       duty.push_back(d);
       frequency.push_back(f);
-      const double open = signals::delivered_duty(d, 1 / f, opening, closing);
+      const double open = gas::delivered_duty(d, 1 / f, opening, closing);
       delivered.push_back((open + (open > 0 && open < 1 ? normal(random) : 0)) * (flow ? 4e-4 : 1));
     }
   return table({{"duty", "1", duty},

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "sinew/gas/pulse.h"
 #include "sinew/identify/contest/refusal.h"
-#include "sinew/signals/pulse.h"
 
 namespace sinew::identify {
 
@@ -24,8 +24,8 @@ CompensatedTiming compensated(double opening_delay, double closing_delay, double
   // between.
   const auto delivered = [&](int close) {
     const int on = close >= never ? period : std::min(close + lead, period - 1);
-    return signals::delivered_duty(static_cast<double>(on) / period, period * tick, opening_delay,
-                                   closing_delay);
+    return gas::delivered_duty(static_cast<double>(on) / period, period * tick, opening_delay,
+                               closing_delay);
   };
 
   CompensatedTiming out;

@@ -10,10 +10,10 @@
 #include "sinew/gas/coil_current.h"
 #include "sinew/gas/delay.h"
 #include "sinew/gas/orifice.h"
+#include "sinew/gas/pulse.h"
 #include "sinew/identify/valve/edges.h"
 #include "sinew/identify/valve/fixtures_test.h"
 #include "sinew/identify/valve/timing.h"
-#include "sinew/signals/pulse.h"
 
 namespace sinew::identify::valve_test {
 namespace {

@@ -28,7 +28,7 @@ namespace sinew::run {
 //
 //   e = L - desired [m]: a muscle that is too long needs air
 //
-// All functions are pure. The delivered pulse is calculated in signals/pulse.h.
+// All functions are pure. The delivered pulse is calculated in gas/pulse.h.
 
 // Share of the period for each valve; a 3-way valve uses `inlet` only.
 struct DriveShares {

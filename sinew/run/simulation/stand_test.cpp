@@ -11,13 +11,13 @@
 
 #include "sinew/actuator/thesis_actuator.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/gas/pulse.h"
 #include "sinew/run/controllers/drive.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/setup/machine_setup.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/simulation/simulation.h"
 #include "sinew/run/simulation/test_same.h"
-#include "sinew/signals/pulse.h"
 #include "sinew/world/stand.h"
 #include "tests/places.h"
 
@@ -138,7 +138,7 @@ TEST(RigRun, CommandedDutyThroughDelaysIsTheDeliveredOne) {
   delayed.stand->drive.duty = 0.5;
   Experiment ideal = delayed;
   ideal.stand->element.inlet = "ideal";
-  ideal.stand->drive.duty = signals::delivered_duty(0.5, 0.04, 0.004, 0.001);
+  ideal.stand->drive.duty = gas::delivered_duty(0.5, 0.04, 0.004, 0.001);
   EXPECT_DOUBLE_EQ(ideal.stand->drive.duty, 0.425);
   const auto mean = [](const Experiment& e) {
     Experiment one = e;
@@ -318,7 +318,7 @@ TEST(DriveLaws, TheSteadyDutyLetsInWhatItLetsOut) {
 TEST(DriveLaws, TheCommandedDutyIsTheDeliveredOneBackwards) {
   for (double d : {0.0, 0.2, 0.425, 0.8, 1.0}) {
     const double told = commanded_duty(d, 0.004, 0.001, 0.04);
-    EXPECT_NEAR(signals::delivered_duty(told, 0.04, 0.004, 0.001), d, 1e-12);
+    EXPECT_NEAR(gas::delivered_duty(told, 0.04, 0.004, 0.001), d, 1e-12);
   }
 }
 
