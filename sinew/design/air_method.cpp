@@ -65,8 +65,17 @@ Supply supply_of(const AirSettings& s, const AirUses& uses) {
   };
   Supply out{.store_mass = values.given(s.mass).value_or(Value::unknown),
              .compressor_mass = values.given(s.compressor_mass).value_or(Value::unknown)};
-  for (const std::string& point : s.compressor)
-    out.compressor.push_back(point_of(point, atmosphere));
+  for (const std::string& text : s.compressor) {
+    const gas::CompressorPoint point = point_of(text, atmosphere);
+    constexpr double rounding = 1;  // of a pressure in another unit [Pa]
+    const auto is_equal = [&](const gas::CompressorPoint& other) {
+      return std::abs(other.gauge_pressure - point.gauge_pressure) < rounding;
+    };
+    if (std::ranges::any_of(out.compressor, is_equal))
+      config::refuse_setting("compressor", config::in_quotes(text) + ", a second point there",
+                             "one point for each pressure");
+    out.compressor.push_back(point);
+  }
   std::ranges::sort(out.compressor, {}, &gas::CompressorPoint::gauge_pressure);
   out.line = s.line.empty() ? uses.line : absolute("line", s.line);
   if (!std::isfinite(out.line))
