@@ -52,7 +52,12 @@ std::string no_number(std::string& text) {
   return complaint(config::in_quotes(text), "a number", comma ? "a point for the comma" : "");
 }
 
+std::string no_text(const std::string& text) {
+  return text.empty() ? complaint(config::in_quotes(text), "a value that is not empty") : "";
+}
+
 void complete(CLI::Option& option) {
+  if (takes_value(option)) option.check(CLI::Validator(no_text, ""));
   const std::string type = option.get_type_name(), word = type.substr(0, type.find(':'));
   if (word == "TEXT") option.type_name("VALUE");
   if (word == "FLOAT") option.type_name("NUMBER")->check(CLI::Validator(no_number, ""));
