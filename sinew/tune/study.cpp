@@ -363,6 +363,9 @@ void check(const Sweep& s) {
     for (const Range& range : s.sample->ranges) check_range(s, range, origins, atmosphere);
   for (const Case& one : s.cases) check_case(s, one);
   for (const Axis& axis : s.axes) check_axis(s, axis, origins, atmosphere);
+  if (keys(s).empty())
+    config::fail({s.experiment, 0, 0}, "", "no [[reported]] figure",
+                 "a figure for the rows of the table", "report=\"duration_s\"");
   if (!s.largest) return;
   for (const Value& value : s.largest->axis.values)
     if (!value.number)
