@@ -64,20 +64,51 @@ bool has_access(const fs::path& file, const User& user) {
   return (is.st_mode & both) == both;
 }
 
+namespace {
+
+// Group of etc/group.
+struct Group {
+  std::string name, number;
+};
+
+std::vector<Group> groups(const fs::path& root) {
+  std::vector<Group> out;
+  std::istringstream lines(text_of(root / "etc/group"));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    Group group;
+    std::string password;
+    std::getline(words, group.name, ':');
+    std::getline(words, password, ':');
+    std::getline(words, group.number, ':');
+    out.push_back(std::move(group));
+  }
+  return out;
+}
+
+// Returns the commands, each followed by " && ", that make the user a member of a group; empty for
+// a member.
+std::string joining(const std::string& name, const fs::path& root) {
+  const std::vector<Group> all = groups(root);
+  const auto group = std::ranges::find(all, name, &Group::name);
+  const User user = user_of(root);
+  const auto is_its = [&](long number) {
+    return group != all.end() && std::to_string(number) == group->number;
+  };
+  if (is_its(user.group) || std::ranges::any_of(user.groups, is_its)) return "";
+  const std::string add = group == all.end() ? fmt::format("sudo groupadd {} && ", name) : "";
+  return add + fmt::format("sudo usermod -aG {} $USER && ", name);
+}
+
+}  // namespace
+
 std::string group_of(const fs::path& file, const fs::path& root) {
   struct stat is {};
   if (::stat(file.c_str(), &is) != 0) return "";
   const std::string number = std::to_string(is.st_gid);
-  std::istringstream lines(text_of(root / "etc/group"));
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string name, password, id;
-    std::getline(words, name, ':');
-    std::getline(words, password, ':');
-    std::getline(words, id, ':');
-    if (id == number) return name;
-  }
-  return number;
+  const std::vector<Group> all = groups(root);
+  const auto group = std::ranges::find(all, number, &Group::number);
+  return group == all.end() ? number : group->name;
 }
 
 double limit_of(const fs::path& root, const std::string& name) {
@@ -175,16 +206,19 @@ void check_limits(const DoctorOptions& options, Findings& out) {
     return limit < 0 ? std::string("unlimited") : fmt::format("{:.0f}", limit);
   };
   const char* file = "/etc/security/limits.d/sinew.conf   # then log in again";
-  out.push_back({"real-time priority", "", first ? Verdict::good : Verdict::advice,
-                 first_user ? "this is root, who may" : "RLIMIT_RTPRIO is " + said(most),
-                 fmt::format("the loop requests priority {}, before all other programs", priority),
-                 first ? "" : fmt::format("echo '@iocard - rtprio 90' | sudo tee -a {}", file)});
+  const std::string join = first && locked ? "" : joining("iocard", options.root);
   out.push_back(
-      {"locked memory", "", locked ? Verdict::good : Verdict::advice,
-       first_user ? "this is root, who may"
-                  : "RLIMIT_MEMLOCK is " + said(memory) + (memory < 0 ? "" : " bytes"),
-       "a page that was put out costs the loop milliseconds",
-       locked ? "" : fmt::format("echo '@iocard - memlock unlimited' | sudo tee -a {}", file)});
+      {"real-time priority", "", first ? Verdict::good : Verdict::advice,
+       first_user ? "this is root, who may" : "RLIMIT_RTPRIO is " + said(most),
+       fmt::format("the loop requests priority {}, before all other programs", priority),
+       first ? "" : fmt::format("{}echo '@iocard - rtprio 90' | sudo tee -a {}", join, file)});
+  out.push_back({"locked memory", "", locked ? Verdict::good : Verdict::advice,
+                 first_user ? "this is root, who may"
+                            : "RLIMIT_MEMLOCK is " + said(memory) + (memory < 0 ? "" : " bytes"),
+                 "a page that was put out costs the loop milliseconds",
+                 locked ? ""
+                        : fmt::format("{}echo '@iocard - memlock unlimited' | sudo tee -a {}",
+                                      first ? join : "", file)});
 }
 
 void check_kernel(const DoctorOptions& options, Findings& out) {

@@ -175,6 +175,29 @@ TEST_F(Doctor, LimitsThatForbidRealTimeAreAdviceAndRootHasNone) {
   for (const Finding& f : look()) EXPECT_EQ(f.verdict, Verdict::good) << f.subject;
 }
 
+TEST_F(Doctor, TheGroupOfTheLimitsIsJoinedByWhoIsNoMember) {
+  const std::string priority =
+      "echo '@iocard - rtprio 90' | sudo tee -a /etc/security/limits.d/sinew.conf   # then log in "
+      "again";
+  const std::string memory =
+      "echo '@iocard - memlock unlimited' | sudo tee -a /etc/security/limits.d/sinew.conf   # then "
+      "log in again";
+  const std::string join = "sudo usermod -aG iocard $USER && ";
+  put("proc/self/limits", "Max locked memory         8388608\nMax realtime priority     0\n");
+  const auto todo = [&](const char* subject) { return find(look(), subject).todo; };
+  EXPECT_EQ(todo("real-time priority"), "sudo groupadd iocard && " + join + priority);
+  EXPECT_EQ(todo("locked memory"), memory) << "the advice before it names the group";
+
+  put("etc/group", "iocard:x:64003:\n");
+  EXPECT_EQ(todo("real-time priority"), join + priority);
+  put("etc/group", "iocard:x:64002:\n");
+  EXPECT_EQ(todo("real-time priority"), priority);
+
+  put("etc/group", "iocard:x:64003:\n");
+  put("proc/self/limits", "Max locked memory         8388608\nMax realtime priority     90\n");
+  EXPECT_EQ(todo("locked memory"), join + memory);
+}
+
 TEST_F(Doctor, AKernelWithoutAPromiseIsAdviceHoweverTheOtherReportsIt) {
   put("proc/sys/kernel/version", "#1 SMP PREEMPT_DYNAMIC Debian 6.1.99-1");
   EXPECT_EQ(find(look(), "kernel").verdict, Verdict::good) << "/sys/kernel/realtime says 1";

@@ -108,7 +108,8 @@ std::vector<std::string> problems(const RealTime& real_time) {
   if (!real_time.has_priority())
     out.emplace_back(
         "SCHED_FIFO is not permitted: other programs may come before the loop; for the group "
-        "iocard: echo '@iocard - rtprio 90' | sudo tee /etc/security/limits.d/sinew.conf, then log "
+        "iocard: echo '@iocard - rtprio 90' | sudo tee -a /etc/security/limits.d/sinew.conf, then "
+        "log "
         "in again");
   if (!real_time.locked())
     out.emplace_back(
