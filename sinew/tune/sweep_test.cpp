@@ -101,8 +101,9 @@ TEST(Sweep, ASampleIsTheSameForAnyNumberOfThreadsAndAsSingleRuns) {
 TEST(Sweep, RefusesARangeThatTheExperimentDoesNotKnow) {
   const auto of = [](const char* range) {
     return message([=] {
-      check(
-          {.experiment = lever, .sample = Sample{Sample::Kind::sobol, {parse_range(range)}, 4, 1}});
+      check({.experiment = lever,
+             .sample = Sample{Sample::Kind::sobol, {parse_range(range)}, 4, 1},
+             .report = parse_figures("duration_s")});
     });
   };
   EXPECT_EQ(of("phase.up.duration=1:2 s"), "");
@@ -113,6 +114,15 @@ TEST(Sweep, RefusesARangeThatTheExperimentDoesNotKnow) {
   EXPECT_NE(of("seed=1:9").find("expected a whole number"), std::string::npos);
   EXPECT_NE(of("robot=1:9").find("a list of files, in vary"), std::string::npos);
   EXPECT_NE(of("seed=1:3000000000 whole").find("0 to 2147483647"), std::string::npos);
+}
+
+// A table without any figure is refused before its runs.
+TEST(Sweep, RefusesATableWithoutFigures) {
+  Sweep s{.experiment = lever, .axes = {parse_axis("seed=1,2")}};
+  EXPECT_NE(message([&] { check(s); }).find("expected a figure for the rows of the table"),
+            std::string::npos);
+  s.report = parse_figures("duration_s");
+  EXPECT_EQ(message([&] { check(s); }), "");
 }
 
 // Experiments that differ in many keys are given as files.

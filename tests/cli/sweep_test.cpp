@@ -24,8 +24,8 @@ TEST(Sweep, InterruptedKeepsWhatIsDone) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const Workspace w;
     write_text(w / "t.csv", "an older table\n");
-    const pid_t pid =
-        w.start({"sweep", bench, "--seeds", "10000", "-o", "t.csv", "--force", "--quiet"});
+    const pid_t pid = w.start({"sweep", bench, "--seeds", "10000", "--report", "duration_s", "-o",
+                               "t.csv", "--force", "--quiet"});
     for (int i = 0; i < 1000 && !fs::exists(w / "t.csv.part"); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     kill(pid, signal);
