@@ -15,8 +15,8 @@ namespace sinew::config {
 // if it is not found.
 std::filesystem::path shipped_folder();
 
-// Returns the path of the shipped file of this name, "experiments/walk-test-1.toml"; empty if there
-// is none.
+// Returns the path of the shipped file of this name, "experiments/walk-test-1.toml"; empty if no
+// such file ships.
 std::string find_shipped(const std::string& name);
 
 // Returns the same if the current folder has no file of that name; else the name.

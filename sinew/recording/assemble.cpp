@@ -568,10 +568,10 @@ class Assembler {
       };
       const std::string& start = mapping_.clock.start;
       if (times_[f](span.last) >= 0)
-        config::fail({files_[f].file, 0, 0}, "",
-                     fmt::format("no number in the {} values of the columns that are channels",
-                                 summary.left_out),
-                     "a finite number in at least one row");
+        config::fail(
+            {files_[f].file, 0, 0}, "",
+            fmt::format("{} values of channels, each empty or not finite", summary.left_out),
+            "a finite number in at least one row");
       const std::string last = seconds(span.last) + " s of its clock, before the log's time 0";
       config::fail({start.empty() ? files_[f].file : "start", 0, 0}, "",
                    start.empty() ? "the last sample at " + last

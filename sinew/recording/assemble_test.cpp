@@ -511,7 +511,8 @@ TEST_F(AssembleTest, ReportsWhatIsWrongAndWhatToDo) {
     const std::string error = error_of({put("b.csv", text)}, m);
     EXPECT_NE(error.find(part), std::string::npos) << part << "\nin: " << error;
   };
-  refused("time [s],elbow_angle [deg]\n0,NaN\n0.01,\n", {}, "no number in the 2 values");
+  refused("time [s],elbow_angle [deg]\n0,NaN\n0.01,\n", {},
+          "2 values of channels, each empty or not finite");
   Mapping late;
   late.clock.start = "100 s";
   refused("time [s],elbow_angle [deg]\n0,1\n0.01,2\n", late,

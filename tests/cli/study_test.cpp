@@ -27,9 +27,14 @@ class Study : public ::testing::Test {
 
 // Killed at any moment it keeps the completed runs; the next one only runs the others.
 TEST_F(Study, GoesOnWhereItWasKilled) {
-  const Words many = {"sweep",  "experiments/one-joint.toml", "--seeds", "300", "--results", "s.db",
+  const Words many = {"sweep",     "experiments/one-joint.toml",
+                      "--seeds",   "300",
+                      "--report",  "duration_s",
+                      "--results", "s.db",
                       "--quiet"};
-  const std::string whole = w.sinew({"sweep", "experiments/one-joint.toml", "--seeds", "300"}).out;
+  const std::string whole =
+      w.sinew({"sweep", "experiments/one-joint.toml", "--seeds", "300", "--report", "duration_s"})
+          .out;
   for (int i = 0; i < 3; ++i) {
     const pid_t pid = w.start(many);
     std::this_thread::sleep_for(std::chrono::milliseconds(150 + 70 * i));
@@ -56,7 +61,8 @@ class StudyOverMpi : public Study {
   }
   std::string err() { return read_text(w / "err"); }
 
-  const std::string sinew = sinew::test::program() + " sweep experiments/one-joint.toml --seeds ";
+  const std::string sinew =
+      sinew::test::program() + " sweep experiments/one-joint.toml --report duration_s --seeds ";
 };
 
 TEST_F(StudyOverMpi, IsTheSameTableAndAnErrorIsReportedOnce) {
@@ -64,8 +70,9 @@ TEST_F(StudyOverMpi, IsTheSameTableAndAnErrorIsReportedOnce) {
     GTEST_SKIP() << "no mpirun, or a program without MPI";
   const std::string mpirun = "mpirun --oversubscribe -n 3 ";
   EXPECT_EQ(shell(mpirun + sinew + "7 --results s.db"), 0) << err();
-  EXPECT_EQ(read_text(w / "out"),
-            w.sinew({"sweep", "experiments/one-joint.toml", "--seeds", "7"}).out);
+  EXPECT_EQ(read_text(w / "out"), w.sinew({"sweep", "experiments/one-joint.toml", "--seeds", "7",
+                                           "--report", "duration_s"})
+                                      .out);
   EXPECT_EQ(shell(mpirun + sinew + "8 --results s.db"), 1);
   const std::string said = err(), what = "s.db: found another study";
   EXPECT_NE(said.find(what), said.npos) << said;

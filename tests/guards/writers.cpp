@@ -68,7 +68,8 @@ std::vector<Writer> writers(const Workspace& w) {
       of_a_file("identify", "g.toml", {"identify", "geometry"}, "mesh.csv", "mesh2.csv",
                 {"--no-report"}),
   };
-  const Words sweep = {"sweep", bench, "-o", "out/s.csv", "--force", "--quiet", "--seeds"};
+  const Words sweep = {"sweep",   bench,      "-o",         "out/s.csv", "--force",
+                       "--quiet", "--report", "duration_s", "--seeds"};
   out.push_back({"sweep", with(sweep, {"3"}), with(sweep, {"2"}),
                  with(sweep, {"2", "--report", "durations_s"}), "out/s.csv"});
   if (w.sinew({"report", "one"}).err.find("npm") != std::string::npos) return out;

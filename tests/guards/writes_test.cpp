@@ -86,7 +86,8 @@ void lose_no_row(const Workspace& w, const Words& alone, const std::string& resu
 
 TEST(Writes, ThatFailOfAStudyLoseNoRow) {
   const Workspace w;
-  const Words sweep = {"sweep", "experiments/one-joint.toml", "--seeds", "3", "--quiet"};
+  const Words sweep = {
+      "sweep", "experiments/one-joint.toml", "--seeds", "3", "--report", "duration_s", "--quiet"};
   lose_no_row(w, sweep, w.sinew(sweep).out, 3);
 }
 
