@@ -307,7 +307,7 @@ double passiveness(const Figures& f, const robot::Muscle& m) {
 }
 
 double delivered_passiveness(const Figures& f, const robot::Muscle& m) {
-  const bool seals = valve_of(f.machine, m.inlet).seals;
+  const bool seals = valve_of(f.machine, m.inlet).seals();
   return passive(f.machine, m, delivered_duty(f, m, "inlet"),
                  seals ? delivered_duty(f, m, "exhaust") : 0.0);
 }

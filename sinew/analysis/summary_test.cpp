@@ -149,7 +149,7 @@ TEST(Summary, PassivenessIsOfTheBusiestMuscleOfTheBusiestJoint) {
 // A 3-way valve always joins its muscle to the supply or to the room, so it is never passive.
 TEST(Summary, A3WayValveIsNeverPassive) {
   Machine m = walking_leg();
-  m.valves = {{.name = "inlet", .seals = false}};
+  m.valves = {{.name = "inlet", .kind = gas::Valve::Kind::three_way}};
   test::Log log = walk(2);
   duties(log, "hip_flexor", 0.3, 0);
   log.pulses("/valve/hip_flexor/inlet/open", 1e-3, 2.0);

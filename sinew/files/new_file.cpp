@@ -11,6 +11,7 @@
 
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/operating_point.h"
+#include "sinew/analysis/record/machine.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
@@ -19,6 +20,7 @@
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/files/check.h"
+#include "sinew/robot/legs.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/units/constants.h"
 
@@ -152,12 +154,16 @@ struct Joint {
   std::string in_plan;  // without its leg: a plan drives all legs alike
   double rest_deg = template_rest_deg;
   bool driven = true;  // whether muscles drive it
+  std::string leg;     // empty for a robot with one leg, whose figures have no leg's name
 };
 
 // Base of the new file: a robot or an experiment, and the joints that it drives.
 struct Subject {
   fs::path file;
-  std::vector<Joint> joints{{std::string(template_joint), std::string(template_joint)}};
+  std::vector<Joint> joints{
+      {.name = std::string(template_joint), .in_plan = std::string(template_joint)}};
+  bool plan_has_gains = false;  // its [control.gains] hold instead of the robot's
+  bool seals = true;            // whether the valves of the first driven joint shut its muscles off
 };
 
 void require_new_kind(const std::string& kind) {
@@ -255,12 +261,26 @@ void name_joints(std::string& text, const std::vector<Joint>& joints) {
         all += fmt::format("{}{} = {}", all.empty() ? "{ " : ", ", name, about(joint, value));
     text.replace(at, end - at, all);
   }
-  // Keys of a plan name one joint.
-  const Joint& first = *std::ranges::find_if(joints, &Joint::driven);
-  for (const char* before : {"joint.", "joints."})
-    replace_all(text, fmt::format("{}{}.", before, template_joint), before + first.name + ".");
-  replace_all(text, fmt::format("stiffness.{}=", template_joint),
-              "stiffness." + first.in_plan + "=");
+}
+
+// Names the first driven joint in the keys of a study. All legs share the gains of a plan, and the
+// figures of a leg's joint have the names that a summary has.
+void name_first_joint(std::string& text, const Subject& subject) {
+  const Joint& first = *std::ranges::find_if(subject.joints, &Joint::driven);
+  const std::string name(template_joint);
+  const bool of_plan = subject.plan_has_gains || !first.leg.empty();
+  replace_all(text, fmt::format("\"joint.{}.angle_gain=", name),
+              of_plan ? fmt::format("\"control.gains.{}.angle=", first.in_plan)
+                      : fmt::format("\"joint.{}.angle_gain=", first.name));
+  replace_all(text, fmt::format("stiffness.{}=", name), "stiffness." + first.in_plan + "=");
+  const std::string figures = first.leg.empty()
+                                  ? fmt::format("joints.{}.", first.name)
+                                  : fmt::format("legs.{}.joints.{}.", first.leg, first.in_plan);
+  replace_all(text, fmt::format("joints.{}.", name), figures);
+  if (subject.seals) return;
+  // Valves that never shut leave no joint passive; they take much air instead.
+  replace_all(text, figures + "passiveness > 10 %", "air_used_kg < 100 g");
+  replace_all(text, figures + "passiveness [%], ", "");
 }
 
 const config::Node* value_of(const config::Node& table, const char* key) {
@@ -268,12 +288,21 @@ const config::Node* value_of(const config::Node& table, const char* key) {
   return node && node->is_value_table() ? node->find("value") : node;
 }
 
-// Returns "hip" for left_hip if the robot has a leg of that name.
-std::string without_leg(const std::string& joint, const config::Node& root) {
+// Returns the leg of a joint: "left" for left_hip if the robot has a leg of that name; else empty.
+std::string leg_of(const std::string& joint, const config::Node& root) {
   if (const config::Node* legs = root.find("leg"))
     for (const config::Node& leg : legs->children)
-      if (joint.starts_with(leg.key + "_")) return joint.substr(leg.key.size() + 1);
-  return joint;
+      if (joint.starts_with(leg.key + "_")) return leg.key;
+  return "";
+}
+
+// Returns whether all valves of the joint's muscles shut, so that the joint can be passive.
+bool valves_shut(const config::Node& root, const std::string& joint) {
+  const analysis::Machine machine = analysis::read_machine(root);
+  return std::ranges::all_of(machine.robot.muscles, [&](const robot::Muscle& m) {
+    const bool is_of = m.joint == joint || m.second.joint == joint;
+    return !is_of || analysis::valve_of(machine, m.inlet).kind == gas::Valve::Kind::two_way;
+  });
 }
 
 // Returns the joints with their rest angles.
@@ -285,8 +314,12 @@ std::vector<Joint> joints_of(const config::Node& root) {
       const config::Node* rest = value_of(joint, "rest_angle");
       const double angle =
           rest ? config::quantity(rest->text, "rad", joint.key + ".rest_angle") : 0;
-      out.push_back({joint.key, without_leg(joint.key, root), angle * 180 / std::numbers::pi,
-                     !kind || kind->text != "passive"});
+      const std::string leg = leg_of(joint.key, root);
+      out.push_back({.name = joint.key,
+                     .in_plan = robot::name_in_leg(leg, joint.key),
+                     .rest_deg = angle * 180 / std::numbers::pi,
+                     .driven = !kind || kind->text != "passive",
+                     .leg = leg});
     }
   return out;
 }
@@ -314,8 +347,13 @@ Subject subject_of(const std::string& kind, const NewOptions& options) {
                  fmt::format("the {} that the new {} is of, format = \"{}\"", wanted, kind,
                              config::newest_format(wanted)));
   Subject out{options.of, joints_of(root)};
-  if (std::ranges::none_of(out.joints, &Joint::driven))
+  const auto first = std::ranges::find_if(out.joints, &Joint::driven);
+  if (first == out.joints.end())
     config::fail({options.of, 0, 0}, "joint", "no joint with muscles", "one at least");
+  if (!study) return out;
+  const std::string gains = fmt::format("control.gains.{}.angle", first->in_plan);
+  out.plan_has_gains = config::value_at(root, gains) != nullptr;
+  out.seals = valves_shut(root, first->name);
   return out;
 }
 
@@ -355,6 +393,7 @@ Draft draft(const Task& task, const std::string& part, const fs::path& file) {
                            task.options.metric);
   if (task.kind == "actuator") replace_all(out.text, "= \"bpa\"", "= \"NEW\"");
   name_joints(out.text, task.subject.joints);
+  name_first_joint(out.text, task.subject);
   put_name(out.text, task.name, in_comment(file));
   if (part == "experiment" || is_study(part)) {
     const std::string key = is_study(part) ? "experiment = " : "robot  = ";

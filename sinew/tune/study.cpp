@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "sinew/analysis/absent.h"
 #include "sinew/config/changes.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
@@ -332,6 +334,51 @@ void check_case(const Sweep& s, const Case& one) {
   (void)built(s, one.experiment.empty() ? s.experiment : one.experiment, sets);
 }
 
+// Returns the machines of all runs; none if a value of an axis is a word, which may choose another
+// machine.
+std::vector<analysis::Machine> machines_of(const Sweep& s) {
+  std::vector<analysis::Machine> out;
+  const auto add = [&](const std::string& file, const std::vector<std::string>& sets) {
+    out.push_back(analysis::read_machine(config::compose(file, sets)));
+  };
+  for (const Axis& axis : s.axes) {
+    if (axis.key == "experiment") {
+      for (const Value& value : axis.values) add(experiment_path(s, value.text), s.sets);
+    } else if (std::ranges::any_of(axis.values, [](const Value& v) { return !v.number; })) {
+      return {};
+    }
+  }
+  for (const Case& one : s.cases) {
+    std::vector<std::string> sets = s.sets;
+    sets.insert(sets.end(), one.sets.begin(), one.sets.end());
+    add(one.experiment.empty() ? s.experiment : one.experiment, sets);
+  }
+  if (out.empty()) add(s.experiment, s.sets);
+  return out;
+}
+
+// Refuses figures and conditions that no run can have.
+void check_figures(const Sweep& s) {
+  const std::vector<analysis::Machine> machines = machines_of(s);
+  std::vector<config::Problem> problems;
+  const auto refuse_absent = [&](const std::string& key, const std::string& setting) {
+    std::optional<units::Mistake> mistake;
+    for (const analysis::Machine& machine : machines)
+      if (mistake = analysis::absent(key, machine); !mistake) return;
+    if (mistake)
+      problems.push_back({.where = {setting, 0, 0},
+                          .key = {},
+                          .found = key + ": " + mistake->found,
+                          .expected = mistake->expected,
+                          .try_this = mistake->try_this});
+  };
+  for (const Figure& figure : s.report) refuse_absent(figure.key, figure.setting);
+  if (s.largest)
+    for (const Condition& condition : s.largest->where)
+      refuse_absent(condition.key, condition.setting);
+  if (!problems.empty()) throw config::Error(std::move(problems));
+}
+
 // Refuses too many points, before they are allocated and before their number overflows.
 void refuse_too_many(const Sweep& s) {
   double all = 1;
@@ -366,6 +413,7 @@ void check(const Sweep& s) {
   if (keys(s).empty())
     config::fail({s.experiment, 0, 0}, "", "no [[reported]] figure",
                  "a figure for the rows of the table", "report=\"duration_s\"");
+  check_figures(s);
   if (!s.largest) return;
   for (const Value& value : s.largest->axis.values)
     if (!value.number)

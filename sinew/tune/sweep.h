@@ -148,7 +148,8 @@ std::vector<std::string> keys(const Sweep&);
 std::shared_ptr<run::Ensembles> ensembles_of(const Sweep&);
 
 // Throws config::Error if the experiment is faulty by itself, if an axis has an unknown key or
-// unit, or if there are more than most_points. Runs nothing.
+// unit, if no run can have a figure (analysis/absent.h), or if there are more than most_points.
+// Runs nothing.
 void check(const Sweep&);
 
 // Checks and runs the sweep. Throws std::runtime_error for a card that cannot be used, and after

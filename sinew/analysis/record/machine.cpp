@@ -33,7 +33,7 @@ void seconds(Visitor& v, std::string_view name, double& value) {
 MachineValve machine_valve_of(const gas::Valve& valve) {
   MachineValve out{.name = valve.name, .coil = valve.coil};
   out.rated_switchings = valve.rated_switchings;
-  out.seals = valve.kind != gas::Valve::Kind::three_way;
+  out.kind = valve.kind;
   if (valve.drive != gas::Valve::Drive::speed_up) out.coil.boost_power = out.coil.boost_time = 0;
   if (valve.profile == gas::Valve::Profile::ideal) return out;
   const gas::Delays delays = gas::delays(valve);
@@ -148,7 +148,7 @@ MachineValve valve_of(const Machine& m, std::string_view valve) {
 double passive(const Machine& m, const robot::Muscle& muscle, double inlet_duty,
                double exhaust_duty) {
   const double open = inlet_duty + exhaust_duty;
-  return valve_of(m, muscle.inlet).seals ? 1.0 - open : 0.0 * open;
+  return valve_of(m, muscle.inlet).seals() ? 1.0 - open : 0.0 * open;
 }
 
 }  // namespace sinew::analysis

@@ -27,9 +27,14 @@ struct MachineValve {
   std::string name;
   double opening = 0, closing = 0;  // time from the edge to half of the stroke; ideal: 0 [s]
   gas::Coil coil;
-  bool seals = true;  // false: a 3-way valve, which joins its muscle to the supply or to the room
-  double shut = 0;    // time from the opening edge until the shutter moves [s]
+  gas::Valve::Kind kind = gas::Valve::Kind::two_way;
+
+  double shut = 0;              // time from the opening edge until the shutter moves [s]
   double rated_switchings = 0;  // openings that it is made for; 0: not given [-]
+
+  // Returns whether it shuts its muscle off; false for a 3-way valve, which joins the muscle to the
+  // supply or to the room.
+  bool seals() const { return kind != gas::Valve::Kind::three_way; }
 };
 
 // A test stand with the kind and the period of its drive.

@@ -72,7 +72,8 @@ class StandMaker {
     using Mode = robot::Stand::Charge::Mode;
     const Mode mode = stand_.charge.mode;
     out_.air = mode == Mode::regulated ? regulated : mode == Mode::valves ? valves : sealed;
-    if (out_.air == valves && !valve_of(machine_, stand_.element.inlet).seals) out_.air = three_way;
+    if (out_.air == valves && !valve_of(machine_, stand_.element.inlet).seals())
+      out_.air = three_way;
     const std::string valve = "/valve/" + stand_.element.name + "/";
     out_.inlet = channels_.first_of({valve + "inlet/open"});
     out_.exhaust = channels_.first_of({valve + "exhaust/open"});
