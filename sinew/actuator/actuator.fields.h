@@ -547,6 +547,9 @@ void fields(Visitor& v, Actuator& a) {
     units::report_conflict(v, "long_end",
                            "a greatest length below the shortest, thread_length / sqrt 3",
                            "a length between that and the thread's");
+  } else if (a.long_end.length > (1 + 1e-12) * (a.braid.thread_length + a.caps.length)) {
+    units::report_conflict(v, "long_end", "a greatest length above thread_length and caps.length",
+                           "a length between thread_length / sqrt 3 and the thread's");
   } else if (a.air.offset < 0 && !(volume(a, a.long_end.length) > 0)) {
     units::report_conflict(v, "air", "an offset that leaves no air at long_end.length",
                            "one that leaves some: above minus the volume of the braid there");

@@ -2,15 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <set>
 #include <string_view>
 #include <tuple>
+
+#include <fmt/format.h>
 
 #include "sinew/actuator/body.h"
 #include "sinew/config/setting.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/control/gait/legs.h"
 #include "sinew/experiment/faults.h"
+#include "sinew/robot/kinematics.h"
+#include "sinew/robot/legs.h"
 #include "sinew/signals/tick.h"
 #include "sinew/units/quantity.h"
 
@@ -69,6 +74,32 @@ void check_valves(const Experiment& e, List& out) {
   }
 }
 
+// Refuses a hose's volume that is too small for the flow of its valves: the pressure of such a
+// chamber changes faster than the air's steps follow. Measured with pipes of 1 m x 2 mm and 50 m x
+// 0.1 mm and with valves of 2 to 2000 mm2: up to a volume of 5 um times the valve's area the run
+// ends with air that is not finite; from 15 um on, at 2000 mm2 from 50 um on, it does not.
+void check_hose(const Experiment& e, const std::string& part, const gas::Hose& hose,
+                std::initializer_list<std::string_view> valves, List& out) {
+  constexpr double per_area = 50e-6;  // [m]
+  // Area with the choked flow of a conductance: psi* / sqrt(R T_0) and rho_0 of the reference air.
+  constexpr double area_per_conductance = 503;  // [m2 / (m3/(s Pa))]
+  if (hose.law == gas::Hose::Law::none || !(hose.volume > 0)) return;
+  double widest = 0;
+  for (const std::string_view name : valves)
+    if (const gas::Valve* v = find_valve(e, name))
+      widest = std::max(widest, v->flow.law == gas::Flow::Law::iso6358
+                                    ? area_per_conductance * v->flow.sonic_conductance
+                                    : v->flow.area);
+  if (hose.volume >= per_area * widest) return;
+  const std::string key = part + ".hose.volume";
+  const auto text = [&](double volume) {
+    return config::quantity_like(e.origins, key, volume, "m3", "mm3");
+  };
+  out.push_back({key, text(hose.volume),
+                 "at least " + text(per_area * widest) + " with valves as wide as its own, or 0",
+                 "volume = 0: a hose that only resists the flow"});
+}
+
 // Refuses keys of a joint's laws that its valves do not use.
 void check_pressure_law(const Experiment& e, List& out) {
   using Kind = gas::Valve::Kind;
@@ -109,6 +140,7 @@ void check_muscles(const Experiment& e, List& out) {
     need(key + ".actuator", m.actuator, e.actuators, out);
     need(key + ".inlet.valve", m.inlet, e.valves, out);
     if (!m.exhaust.empty()) need(key + ".exhaust.valve", m.exhaust, e.valves, out);
+    check_hose(e, key, m.hose, {m.inlet, m.exhaust}, out);
   }
   const robot::Cylinder& c = e.robot.cylinder;
   if (!c.present) return;
@@ -122,13 +154,14 @@ void check_muscles(const Experiment& e, List& out) {
 void check_lengths(const Experiment& e, List& out) {
   for (const robot::Muscle& m : e.robot.muscles)
     for (const actuator::Actuator& a : e.actuators) {
-      if (a.name != m.actuator || m.mount_length < a.braid.thread_length) continue;
-      out.push_back(
-          {"muscle." + m.name + ".mount_length",
-           length_like(e, "muscle." + m.name + ".mount_length", m.mount_length),
-           "less than the thread's length, " +
-               length_like(e, "muscle." + m.name + ".mount_length", a.braid.thread_length),
-           ""});
+      const double longest = a.braid.thread_length + a.caps.length;
+      if (a.name != m.actuator || m.mount_length < longest) continue;
+      const std::string key = "muscle." + m.name + ".mount_length";
+      out.push_back({key, length_like(e, key, m.mount_length),
+                     (a.caps.length > 0 ? "less than the length of thread and caps, "
+                                        : "less than the thread's length, ") +
+                         length_like(e, key, longest),
+                     ""});
     }
 }
 
@@ -211,6 +244,59 @@ void check_place(const Experiment& e, List& out) {
     if (link.center_of_mass > link.length)
       out.push_back({key, length_like(e, key, link.center_of_mass),
                      "within the link, " + length_like(e, key, link.length), ""});
+  }
+}
+
+// Returns the mass that rests on the feet: all that moves [kg].
+double moving_mass(const robot::Robot& robot) {
+  double limbs = robot.cylinder.present ? robot.cylinder.body_mass : 0.0;
+  for (const robot::Link& link : robot.links) limbs += link.mass;
+  for (std::size_t leg = 0; leg < robot::legs_of(robot).size(); ++leg)
+    limbs += robot::foot_of(robot, leg).mass;
+  return std::max(limbs, robot.trolley.present ? robot.trolley.moving_mass() : 0.0);
+}
+
+// Returns the depth of the lowest disc of a leg's foot in the ground at the start [m].
+double start_depth(const Experiment& e, std::size_t leg,
+                   const std::vector<robot::LinkPlace>& places) {
+  const robot::Foot& foot = robot::foot_of(e.robot, leg);
+  const auto link = static_cast<std::size_t>(robot::foot_link(e.robot, leg));
+  const double sine = std::sin(places[link].heading), cosine = std::cos(places[link].heading);
+  const auto depth = [&](double along, double across, double radius) {
+    const double y = e.start.lift + places[link].joint.y + along * sine + across * cosine;
+    return e.robot.ground.height - foot.radius + radius - y;
+  };
+  if (foot.points.empty()) return depth(e.robot.links[link].length, 0, foot.radius);
+  double deepest = 0;
+  for (const robot::Foot::Point& p : foot.points)
+    deepest = std::max(deepest, depth(p.along, p.across, p.radius));
+  return deepest;
+}
+
+// Refuses feet that start deep in the ground, which would throw the machine into the air. A machine
+// at rest presses a foot in by weight / stiffness at most, one that is let go by twice as much; a
+// start by hand is less exact.
+void check_ground(const Experiment& e, List& out) {
+  constexpr double factor = 3, least = 1e-3;  // [-], [m]
+  if (!e.robot.ground.present) return;
+  const double weight = moving_mass(e.robot) * e.robot.gravity;
+  const double allowed = std::max(least, factor * weight / e.robot.ground.normal_stiffness);
+  std::vector<double> angles;
+  for (const robot::Joint& j : e.robot.joints) angles.push_back(e.start.joint_angles.at(j.name));
+  const std::vector<robot::LinkPlace> places = robot::places(e.robot, angles);
+  const auto text = [&](double metres) { return length_like(e, "ground.height", metres); };
+  for (std::size_t leg = 0; leg < robot::legs_of(e.robot).size(); ++leg) {
+    if (!robot::foot_of(e.robot, leg).present || robot::foot_link(e.robot, leg) < 0) continue;
+    const double depth = start_depth(e, leg, places);
+    if (!(depth > allowed)) continue;
+    const std::string of =
+        e.robot.legs.empty() ? "the foot" : "the foot of leg " + e.robot.legs[leg].name;
+    out.push_back({"start.joint_angles",
+                   fmt::format("{} {} deep in the ground, which pushes with {:.3g} N", of,
+                               text(depth), depth * e.robot.ground.normal_stiffness),
+                   "a foot above the ground, or at most " + text(allowed) + " in it",
+                   "joint_angles that lift the foot by " + text(depth) + ", or ground.height = \"" +
+                       text(e.robot.ground.height - depth) + "\""});
   }
 }
 
@@ -309,6 +395,7 @@ void refuse_contradictions(std::string_view kind, const Experiment& e) {
   }
   std::ranges::move(robot::contradictions(e.robot), std::back_inserter(wrong));
   std::ranges::move(robot::contradictions(e.wiring, e.robot), std::back_inserter(wrong));
+  if (runs && wrong.empty()) check_ground(e, wrong);
   if (runs && wrong.empty()) wrong = gait::contradictions(e.robot, e.plan);
   refuse(wrong, e);
 }
@@ -389,6 +476,8 @@ void check_element(const Experiment& e, Findings& out) {
     return;
   }
   out.need("element.actuator", e.stand->element.actuator, e.actuators);
+  check_hose(e, "element", e.stand->element.hose,
+             {e.stand->element.inlet, e.stand->element.exhaust}, out.list());
 }
 
 void check_load(const Experiment& e, Findings& out) {
