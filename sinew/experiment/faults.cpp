@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/control/gait/plan.h"
 #include "sinew/robot/boards.h"
 #include "sinew/units/quantity.h"
 
@@ -275,6 +276,17 @@ std::string why_idle(const Experiment& e, const Fault& f, signals::Tick end) {
   if (reading <= end && acts(f, static_cast<double>(reading) * signals::tick_seconds)) return "";
   return fmt::format("it falls between two readings of {}, the later one at {:.4f} s", f.of,
                      static_cast<double>(reading) * signals::tick_seconds);
+}
+
+std::string why_idle(const Experiment& e, const gait::Change& change, double end) {
+  if (e.stand) return "";
+  const double period = e.plan.high_level_period;
+  const double plan_ends = static_cast<double>(gait::periods(e.robot, e.plan)) * period;
+  const double ends = std::min(end, plan_ends);
+  // A change takes effect at the first start of a period at or after its time.
+  if (period * std::ceil(change.time / period - 1e-9) < ends - 1e-9 * period) return "";
+  return fmt::format("its time is {:.6g} s, the {} ends at {:.4f} s", change.time,
+                     end < plan_ends ? "run" : "plan", ends);
 }
 
 }  // namespace sinew::experiment

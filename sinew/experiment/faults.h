@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/control/gait/change.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/robot/robot.h"
 #include "sinew/signals/tick.h"
@@ -82,5 +83,9 @@ std::string why_idle(const Experiment& experiment, const Fault& fault, signals::
 
 // Returns the reason for a fault that does not depend on readings.
 std::string why_idle(const Fault& fault, signals::Tick end);
+
+// Returns the reason why a change has no effect on a run that ends at a time [s]: the plan ends
+// before its time. Empty: it has.
+std::string why_idle(const Experiment& experiment, const gait::Change& change, double end);
 
 }  // namespace sinew::experiment

@@ -125,6 +125,10 @@ void check_machine(const std::string& path, Finding& out) {
     return why_idle(e, f, experiment::last_tick(e));
   };
   add_faults(e.path, e.faults, why, out);
+  const double end = static_cast<double>(experiment::last_tick(e)) * signals::tick_seconds;
+  for (std::size_t i = 0; i < e.plan.changes.size(); ++i)
+    if (const std::string idle = why_idle(e, e.plan.changes[i], end); !idle.empty())
+      out.warnings.push_back(fmt::format("{}: change[{}] never acts: {}", path, i, idle));
 }
 
 }  // namespace

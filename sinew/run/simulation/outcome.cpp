@@ -147,6 +147,14 @@ void add_idle_faults(const experiment::Experiment& e, const run::Outcome& outcom
       out.push_back(fmt::format("fault[{}] never acted: {}", i, why));
 }
 
+// Adds the changes that had no effect, as the plan or the run ended before their time.
+void add_idle_changes(const experiment::Experiment& e, const run::Outcome& outcome,
+                      std::vector<std::string>& out) {
+  for (std::size_t i = 0; i < e.plan.changes.size(); ++i)
+    if (const std::string why = why_idle(e, e.plan.changes[i], outcome.duration); !why.empty())
+      out.push_back(fmt::format("change[{}] never acted: {}", i, why));
+}
+
 // Adds sensors with rejected or repeated readings whose counters the run did not record. Repeated
 // readings share a line, since they are common in a machine that does not move.
 void add_sensors(const experiment::Experiment& e, const run::Outcome& outcome,
@@ -203,6 +211,7 @@ std::vector<std::string> warnings_outside_log(const experiment::Experiment& e,
       "robot's board, or a line that spoils what it carries?");
   add_sensors(e, outcome, out);
   add_idle_faults(e, outcome, out);
+  add_idle_changes(e, outcome, out);
   add(controller.missed, "tick", "ticks",
       "came late by more than a tick: this machine cannot keep the pace that finely");
   if (!outcome.table.complete)

@@ -89,7 +89,7 @@ std::string to_text(const air::Failure& failure, const std::string& who,
                     const actuator::Actuator& actuator, const std::string& step);
 
 // Returns a sentence for each kind of lateness on this computer, for rejected readings without a
-// channel of their own, and for faults that never acted.
+// channel of their own, and for faults and changes that never acted.
 std::vector<std::string> warnings_outside_log(const experiment::Experiment& experiment,
                                               const run::Outcome& outcome);
 
