@@ -20,6 +20,7 @@
 #include "sinew/config/changes.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/shipped.h"
+#include "sinew/config/shown_units.h"
 #include "sinew/units/shell.h"
 
 namespace {
@@ -40,8 +41,17 @@ std::string message_of(const std::exception& e) {
   return config::to_text(p);
 }
 
-ExitCode run_safely(const Action& action) {
+// Returns whether the command that the line names shows numbers in chosen units.
+bool shows_units(const CLI::App& app) {
+  for (const CLI::App* sub : app.get_subcommands())
+    if (sub->get_option_no_throw("--units") || shows_units(*sub)) return true;
+  return false;
+}
+
+ExitCode run_safely(const CLI::App& app, const Action& action) {
   try {
+    // Wrong units of the environment and of the user's settings are refused before the work begins.
+    if (shows_units(app)) (void)config::units_to_show({});
     const ExitCode code = action();
     if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
     error("stdout: cannot write the result; make room or choose another place");
@@ -134,7 +144,7 @@ int main(int argc, char** argv) {
   Program program(only_command(words));
   try {
     program.parse(words);
-    return run_safely(program.action);
+    return run_safely(program.app, program.action);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return program.app.exit(e);
   }
@@ -142,7 +152,7 @@ int main(int argc, char** argv) {
   Program whole;
   try {
     whole.parse(words);
-    return run_safely(whole.action);
+    return run_safely(whole.app, whole.action);
   } catch (const CLI::ParseError& e) {
     error_in_words(problems_of_line(whole.app, e));
     return wrong_usage;
