@@ -353,17 +353,30 @@ std::string_view tables_kind(const Node& root) {
   return kind == "experiment" && is_on_stand(root) ? "rig" : kind;
 }
 
+namespace {
+
+// Returns the key with actuator.<name> if it is one of an actuator's file, which omits that.
+std::string with_actuator(const Node& root, std::string_view key) {
+  const Node* actuators = format_kind(root) == "actuator" ? root.find("actuator") : nullptr;
+  const std::string_view first = key.substr(0, key.find('.'));
+  if (!actuators || actuators->children.empty() || root.find(first)) return std::string(key);
+  return fmt::format("actuator.{}.{}", actuators->children.front().key, key);
+}
+
+}  // namespace
+
 void apply_set(Node& root, std::string_view set) {
   const std::size_t equals = set.find('=');
-  const std::string key(units::trimmed(set.substr(0, equals)));
-  const bool empty_segment =
-      key.empty() || key.front() == '.' || key.back() == '.' || key.find("..") != key.npos;
+  const std::string written(units::trimmed(set.substr(0, equals)));
+  const bool empty_segment = written.empty() || written.front() == '.' || written.back() == '.' ||
+                             written.find("..") != written.npos;
   if (equals == set.npos || empty_segment) {
     fail(set_location(), "", in_quotes(set), "key=value",
          "\"muscle.hip_flexor.mount_length=3.2 in\"");
   }
-  if (std::ranges::count(key, '.') > 100)
-    fail(set_location(), "", in_quotes(key), "a key of at most 100 parts");
+  if (std::ranges::count(written, '.') > 100)
+    fail(set_location(), "", in_quotes(written), "a key of at most 100 parts");
+  const std::string key = with_actuator(root, written);
   Node* table = &root;
   std::string_view rest = key;
   for (std::size_t dot; (dot = rest.find('.')) != rest.npos; rest.remove_prefix(dot + 1)) {

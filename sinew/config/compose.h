@@ -76,7 +76,8 @@ bool is_on_stand(const Node& root);
 std::string_view tables_kind(const Node& root);
 
 // Sets "key=value" in the tree: true, false, a number, a TOML list or table, else a text. An index,
-// "phase.swing.y.polynomial[1]" or "fault[0].at", is that of an element of an existing list.
+// "phase.swing.y.polynomial[1]" or "fault[0].at", is that of an element of an existing list. In an
+// actuator's file, "braid.turns" is "actuator.<name>.braid.turns".
 void apply_set(Node& root, std::string_view set);
 
 }  // namespace sinew::config

@@ -1,5 +1,7 @@
 #include "sinew/files/values.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -88,6 +90,18 @@ config::Origins chosen(const config::Origins& all, const std::vector<std::string
   return out;
 }
 
+// Returns the keys of an actuator's file with actuator.<name>, which such a file omits.
+std::vector<std::string> with_actuator(std::vector<std::string> keys,
+                                       const experiment::MachineFile& file) {
+  if (file.kind != "actuator") return keys;
+  for (std::string& key : keys)
+    if (std::ranges::none_of(file.experiment.origins, [&](const config::Origin& origin) {
+          return origin.path.starts_with(key);
+        }))
+      key = fmt::format("actuator.{}.{}", file.experiment.actuators.front().name, key);
+  return keys;
+}
+
 Json to_json(const config::Origin& o, const config::Node& values) {
   Json out{{"key", o.path}, {"written", o.text}};
   if (const std::string si = si_text(values, o); !si.empty()) out["si"] = si;
@@ -126,7 +140,8 @@ Values values(const std::string& path, const std::vector<std::string>& sets,
   if (config::format_kind(config::parse_file(path)) == "mapping")
     return mapping_values(path, sets, keys);
   const auto file = experiment::load_machine_file(path, sets);
-  return {experiment::values_in_si(file), chosen(file.experiment.origins, keys, path)};
+  return {experiment::values_in_si(file),
+          chosen(file.experiment.origins, with_actuator(keys, file), path)};
 }
 
 std::string text_of(const Values& v, const units::ShownUnits* shown) {
