@@ -70,6 +70,10 @@ std::vector<std::string> paths_of(const py::handle& meant);
 std::string bytes_of(const py::handle& text);
 py::object path_text(const std::string& path);
 
+// Returns the SI unit of a key's numbers; that of Sinew's keys if the file lacks the key. Empty:
+// none.
+std::string si_unit_of(const std::string& key, const config::Origins& origins);
+
 // Returns settings as texts "key=value" from None, a list of such texts, or a dict, whose numbers
 // are in the SI units of the keys in `origins`. Throws TypeError for anything else.
 std::vector<std::string> sets_of(const py::object& sets,

@@ -13,6 +13,7 @@
 #include "sinew/config/utf8.h"
 #include "sinew/control/gait/change.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/files/keys.h"
 #include "sinew/files/values.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/signals/tick.h"
@@ -34,10 +35,9 @@ std::string text_of(const std::string& key, const py::handle& value,
     throw py::type_error(
         fmt::format("{}: found {}; expected a number in SI, True or False, or text with a unit",
                     key, py::repr(value).cast<std::string>()));
-  const config::Origin* origin = config::find_origin(origins, key);
   const auto number = py::reinterpret_borrow<py::object>(value);
-  if (origin && !origin->unit.empty())
-    return units::format_quantity(py::float_(number).cast<double>(), origin->unit);
+  if (const std::string unit = si_unit_of(key, origins); !unit.empty())
+    return units::format_quantity(py::float_(number).cast<double>(), unit);
   if (PyIndex_Check(value.ptr()) != 0) return py::str(number).cast<std::string>();
   return units::format_number(py::float_(number).cast<double>());
 }
@@ -130,6 +130,11 @@ std::string resolved(const HeldExperiment& held) {
 }
 
 }  // namespace
+
+std::string si_unit_of(const std::string& key, const config::Origins& origins) {
+  const config::Origin* origin = config::find_origin(origins, key);
+  return origin ? origin->unit : files::unit_of(key);
+}
 
 std::vector<std::string> sets_of(const py::object& sets,
                                  const std::function<const config::Origins&()>& origins) {

@@ -51,9 +51,8 @@ std::string axis_of(const std::string& key, const py::handle& values, const Held
   std::string text;
   for (py::ssize_t i = 0; i < all.size(); ++i)
     text += (i > 0 ? "," : "") + units::format_number(all.data()[i]);
-  const config::Origin* origin = config::find_origin(e.read.origins, key);
-  const bool bare = !origin || origin->unit.empty() || origin->unit == "1";
-  return key + "=" + text + (bare ? "" : " " + origin->unit);
+  const std::string unit = si_unit_of(key, e.read.origins);
+  return key + "=" + text + (unit.empty() || unit == "1" ? "" : " " + unit);
 }
 
 std::vector<std::string> axes_of(const py::object& vary, const HeldExperiment& e) {

@@ -50,6 +50,14 @@ class Experiment(unittest.TestCase):
         self.assertEqual(both.with_seed(9).seed, 9)
         self.assertTrue(sinew.Experiment(AIR, {"ground.present": True})["ground.present"])
 
+    def test_a_number_is_in_si_also_in_a_table_that_the_file_lacks(self) -> None:
+        walk = sinew.Experiment(AIR, {"plant_steps.body": 5e-4, "control.gains.hip.angle": 3e-4})
+        self.assertEqual(walk["plant_steps.body"], 5e-4)
+        self.assertEqual(walk["control.gains.hip.angle"], 3e-4)
+        self.assertEqual(sinew.Experiment(AIR).vary({"plant_steps.body": 5e-4})["plant_steps.body"], 5e-4)
+        table = sinew.sweep(AIR, vary={"plant_steps.body": [5e-4, 1e-3]}, report=["air_used_kg"], sets=["sequence.repeat=1"])
+        self.assertEqual(len(table), 2)
+
     def test_is_a_mapping_of_its_values(self) -> None:
         walk = sinew.Experiment(WALK)
         self.assertIn("joint.hip.damping", walk)

@@ -1,6 +1,7 @@
 #include "sinew/files/keys.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -513,6 +514,22 @@ bool is_key(const Key& key, std::string_view path) {
   const Parts own = parts_of(key.path);
   Parts asked = parts_of(path);
   return own.size() == asked.size() && begins_as(own, asked);
+}
+
+std::string unit_of(std::string_view path) {
+  constexpr std::array of_machines{"robot", "actuator", "valves", "wiring", "experiment", "rig"};
+  const auto find = [&](std::string_view whole) {
+    std::string unit;
+    bool differ = false;
+    for (const Key& key : keys()) {
+      if (std::ranges::count(of_machines, key.kind) == 0 || !is_key(key, whole)) continue;
+      differ = differ || (!unit.empty() && unit != key.unit);
+      unit = key.unit;
+    }
+    return differ ? std::string() : unit;
+  };
+  const std::string unit = find(path);
+  return unit.empty() ? find(fmt::format("actuator.name.{}", path)) : unit;
 }
 
 std::vector<Key> find_keys(const std::vector<std::string>& words, std::string_view kind) {

@@ -51,6 +51,11 @@ std::vector<std::string> kinds_within(std::string_view kind);
 // Returns whether the path is that key, with any name for <name> and an index in [].
 bool is_key(const Key& key, std::string_view path);
 
+// Returns the SI unit of a number with this key in a file of a machine, also of a table that a file
+// lacks: "s" for plant_steps.body. Empty for keys without a unit, unknown ones, and those whose
+// unit depends on another value.
+std::string unit_of(std::string_view path);
+
 // Returns the keys that have all words in their path, description or choices, ignoring case. A word
 // with a dot is a key or the beginning of one: joint.hip.damping. An empty `kind` means all. Throws
 // config::Error with the nearest key if no key matches.

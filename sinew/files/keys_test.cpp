@@ -311,6 +311,17 @@ TEST(Keys, LimitsOfTheDocsAreThoseOfTheCode) {
       EXPECT_THAT(text_of_page(page), testing::HasSubstr(text)) << page;
 }
 
+// A number in SI is given its unit also for a table that a file lacks.
+TEST(Keys, HaveTheUnitOfTheirNumbers) {
+  EXPECT_EQ(unit_of("plant_steps.body"), "s");
+  EXPECT_EQ(unit_of("control.gains.hip.angle"), "1/count");
+  EXPECT_EQ(unit_of("actuator.bpa.long_end.length"), "m");
+  EXPECT_EQ(unit_of("long_end.length"), "m");  // in an actuator's file
+  EXPECT_EQ(unit_of("seed"), "");
+  EXPECT_EQ(unit_of("robot"), "");
+  EXPECT_EQ(unit_of("nothing.of.the.kind"), "");
+}
+
 TEST(Keys, TheNearestIsSuggested) {
   for (const auto& [word, near] :
        {std::pair{"dampnig", "damping"},
