@@ -32,8 +32,14 @@ std::uint64_t bits_of(double value) {
 }  // namespace
 
 std::string state_hash(const signals::Table& table) {
+  return state_hash(table, [](const std::string&) { return true; });
+}
+
+std::string state_hash(const signals::Table& table,
+                       const std::function<bool(const std::string& name)>& chosen) {
   std::map<std::string_view, const signals::Series*> by_name;
-  for (const signals::Series& series : table.series) by_name[series.topic.name] = &series;
+  for (const signals::Series& series : table.series)
+    if (chosen(series.topic.name)) by_name[series.topic.name] = &series;
   std::uint64_t hash = units::hash("");
   for (const auto& [name, series] : by_name) {
     hash = units::hash(name, hash);

@@ -12,13 +12,17 @@
 // It depends on neither the order of the channels in the table nor the layout of a struct.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "sinew/signals/table.h"
 
 namespace sinew::analysis {
 
-// Returns the hash as 16 hexadecimal digits.
+// Returns the hash as 16 hexadecimal digits, of all channels or of those for which chosen(name)
+// holds.
 std::string state_hash(const signals::Table& table);
+std::string state_hash(const signals::Table& table,
+                       const std::function<bool(const std::string& name)>& chosen);
 
 }  // namespace sinew::analysis

@@ -1,7 +1,10 @@
 #include "sinew/run/folder/run_storage.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include "sinew/analysis/state_hash.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/config/compose.h"
 #include "sinew/experiment/measured.h"
@@ -125,6 +128,18 @@ bool RunStorage::write_page(const analysis::Analysis& of_all, run::Outcome& outc
   return write(analysis::Analysis(part, of_all.machine));
 }
 
+// Returns the hash of the channels that the log has, as `sinew analyze` computes it from the log;
+// empty without true values, as for a log of hardware.
+std::string RunStorage::hash_of_log(const signals::Table& table) const {
+  if (std::ranges::none_of(logged_.topics, [](const signals::Topic& topic) {
+        return topic.name.starts_with("/true/");
+      }))
+    return "";
+  return analysis::state_hash(table, [&](const std::string& name) {
+    return std::ranges::find(logged_.topics, name, &signals::Topic::name) != logged_.topics.end();
+  });
+}
+
 StoredRun RunStorage::store_files(run::Outcome& outcome, analysis::Machine machine) {
   const analysis::Analysis a(outcome.table, std::move(machine));
   StoredRun kept{.folder = folder(),
@@ -136,6 +151,8 @@ StoredRun RunStorage::store_files(run::Outcome& outcome, analysis::Machine machi
     if (const std::string measured = experiment::measured_csv(experiment_, outcome.table);
         !measured.empty())
       write_into(*folder_, measured_name, measured);
+  if (log_ && !is_whole(logged_) && !kept.summary.state_hash.empty())
+    kept.summary.state_hash = hash_of_log(outcome.table);
   warn(kept.summary.warnings, outcome);
   kept.json = summary_json(kept.summary, experiment_, *place_, outcome);
   write_into(*folder_, summary_name, kept.json);

@@ -78,6 +78,7 @@ class RunStorage {
   [[noreturn]] void break_off(const run::Outcome& outcome);
   StoredRun store_files(run::Outcome& outcome, analysis::Machine machine);
   void warn(const std::vector<std::string>& of_the_log, const run::Outcome& outcome) const;
+  std::string hash_of_log(const signals::Table& table) const;
   bool write_page(const analysis::Analysis& of_all, run::Outcome& outcome);
   void store_trip(const analysis::Analysis& a, const run::Outcome& outcome);
   std::string store_fault_log();
