@@ -152,7 +152,9 @@ void fields(Visitor& v, Robot& robot) {
           [&](auto& g) { fields(g, robot.ground); });
   v.each({.name = "joint", .doc = "joints, one per link, in the same order"}, robot.joints,
          [](auto& g, Joint& joint) { fields(g, joint); });
-  v.each({.name = "muscle", .doc = "muscles: a flexor and an extensor per driven joint"},
+  v.each({.name = "muscle",
+          .doc = "muscles: a flexor and an extensor per driven joint, or one of them against "
+                 "a spring or the weight"},
          robot.muscles, [](auto& g, Muscle& muscle) { fields(g, muscle); });
 
   v.group({.name = "converter", .doc = "analogue-to-digital converter of each board"},
