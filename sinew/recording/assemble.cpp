@@ -587,9 +587,11 @@ class Assembler {
     if (topic.name.starts_with("/recorded/")) return;
     const bool is_pressure = topic.fields[of.target.field].unit == "Pa";
     const double vacuum = is_gauge_channel(topic.name) ? -joining_.atmosphere : 0.0;
-    constexpr double rounding = 1;  // of a vacuum in another unit [Pa]
+    constexpr double rounding = 1;    // of a vacuum in another unit [Pa]
+    constexpr double of_duty = 1e-6;  // of a duty in another unit [-]
     const bool below_vacuum = is_pressure && value < vacuum - rounding;
-    const bool is_no_duty = topic.name.ends_with("_duty") && (value < 0 || value > 1);
+    const bool is_no_duty =
+        topic.name.ends_with("_duty") && (value < -of_duty || value > 1 + of_duty);
     if (!below_vacuum && !is_no_duty) return;
     const Recorded& file = files_[of.file];
     const RecordedColumn& column = file.columns[of.column];
