@@ -76,11 +76,11 @@ TEST(Steps, SuitTheLossesOfMuscles) {
   std::mt19937 random(5);
   for (const bool shoe : {false, true}) {
     for (const double viscous : {10.0, 1e3, 3e3, 1e4, 1e5}) {
-      Setup s = leg_with_muscles(5.6, 4.9);
+      plant::Setup s = leg_with_muscles(5.6, 4.9);
       if (shoe) s = on_a_shoe(s, random);
       for (air::Muscle& m : s.muscles)
         m.actuator.loss.viscous = viscous, m.actuator.loss.coulomb_length = 0;
-      Setup fine = s;
+      plant::Setup fine = s;
       fine.steps.body = 5e-6;
       const Truth a = Machine(s).truth(0.2), b = Machine(fine).truth(0.2);
       for (std::size_t j = 0; j < 2; ++j) EXPECT_NEAR(a.angle[j], b.angle[j], 1e-4) << viscous;
