@@ -142,7 +142,7 @@ void judge_intervals(const DrivenRun& run, double until, RunFitResult& out, RunJ
             "and how near is not known. Another run may have no such jumps";
   for (Estimate& e : judged.estimates) {
     e.remove_interval();
-    e.at_bound = false;
+    if (!is_far) e.at_bound = false;
   }
 }
 

@@ -54,7 +54,7 @@ TEST(RunFit, FindsADeadTimeSeveralTicksFromTheStart) {
     experiment::Experiment machine = start;
     set_number(machine, key, truth);
     const DrivenRun driven(start, recorded(machine), false);
-    const RunFitResult found = fit_run(start, driven, {});
+    const RunFitResult found = fit_run(start, driven, {.fit = {"dead-time"}});
     EXPECT_GT(found.at_start, 100);
     EXPECT_NEAR(found.report.best().fit.rmse, 1, 0.05);
     EXPECT_NEAR(estimate(found, key).value, truth, 1e-4);
@@ -67,7 +67,7 @@ TEST(RunFit, IsNeverWorseThanItsStartAndGivesNoIntervalFarAboveTheNoise) {
   const std::vector<std::string> fit = {"valve.inlet.opening_delay", "valve.exhaust.closing_delay"};
   experiment::Experiment start = shipped("one-joint");
   const DrivenRun driven(start, recorded(start), false);
-  for (const double times : {1.0, 1.001, 1.02, 0.8, 1.5}) {
+  for (const double times : {1.0, 1.02, 1.5}) {
     experiment::Experiment other = start;
     const std::string volume = "muscle.flexor.external_volume";
     set_number(other, volume, times * number_at(start, volume));
