@@ -506,8 +506,8 @@ class Pair {
     }
     out.fit.fit = score(part[0], full_scale_, measured[0]);
     if (part[1].empty()) return;
-    // What was held out of every fit gives a wider band than blocks of the fitted time, if the pair
-    // behaves differently there.
+    // Errors on what was held out of every fit: they are larger than those on blocks of the fitted
+    // time where the pair behaves differently.
     out.fit.held_out = score(part[1], full_scale_, measured[1]);
     out.fit.band = band_of(part[1]);
   }
