@@ -121,9 +121,15 @@ void refuse_falling(const Measured& m, const std::vector<double>& force,
                   "names.force=NAME, if columns are swapped, or the sign of the force");
 }
 
-// Returns whether the length of the muscle changes during the recording.
+// Returns running medians, so that the noise of single samples makes no turns.
+std::vector<double> smooth(std::span<const double> values) { return running_medians(values, 7); }
+
+// Returns whether the length of the muscle changes during the recording. Single wild readings do
+// not count.
 bool is_sweep(const Measured& m, const std::vector<double>& length) {
-  return m.has("time") && largest(length) - smallest(length) > same_length * median(length);
+  if (!m.has("time")) return false;
+  const std::vector<double> smoothed = smooth(length);
+  return largest(smoothed) - smallest(smoothed) > same_length * median(length);
 }
 
 void check(const Measured& m, const std::vector<double>& force, const std::vector<double>& length) {
@@ -162,9 +168,6 @@ std::vector<std::size_t> turns_of(const std::vector<double>& p, double least) {
   out.push_back(p.size());
   return out;
 }
-
-// Returns running medians, so that the noise of single samples makes no turns.
-std::vector<double> smooth(std::span<const double> values) { return running_medians(values, 7); }
 
 // Returns the zero readings: those before the pressure begins to rise.
 Zero vented_start(const std::vector<double>& p, const std::vector<double>& f, StaticData& data,
@@ -269,8 +272,9 @@ void add_sweep(const Measured& m, const StaticInput& input, StaticData& data) {
   const std::vector<double> l = length_of(m, input), f = force_of(m);
   const Settled found = settled_samples(m["time"], p);
   const std::vector<bool> settled = found.rests > 0 ? found.sample : std::vector(p.size(), true);
-  const double range = largest(l) - smallest(l), top = largest(p);
-  const std::vector<std::size_t> turns = turns_of(smooth(l), turn * range);
+  const std::vector<double> smoothed = smooth(l);
+  const double low = smallest(smoothed), range = largest(smoothed) - low, top = largest(p);
+  const std::vector<std::size_t> turns = turns_of(smoothed, turn * range);
   const std::vector<int> level = groups_of(p, same_pressure * top, 5 * same_pressure * top);
 
   struct Rows {
@@ -280,7 +284,7 @@ void add_sweep(const Measured& m, const StaticInput& input, StaticData& data) {
   for (std::size_t i = 0, way = 0; i < p.size(); ++i) {
     if (way + 1 < turns.size() && i >= turns[way + 1]) ++way;
     if (!settled[i]) continue;
-    const int step = static_cast<int>(bins * (l[i] - smallest(l)) / range);
+    const int step = static_cast<int>(std::floor(bins * (l[i] - low) / range));
     Rows& rows = steps[{way, level[i], std::min(step, bins - 1)}];
     rows.length.push_back(l[i]);
     rows.pressure.push_back(p[i]);
@@ -315,20 +319,39 @@ void add_sweep(const Measured& m, const StaticInput& input, StaticData& data) {
   data.notes.push_back(fmt::format(
       "{}: pulled from {:.4g} to {:.4g} mm on {} ways{}: the medians of {} steps are fitted; the "
       "zeros are taken as they are",
-      m.file, 1e3 * smallest(l), 1e3 * largest(l), turns.size() - 1,
+      m.file, 1e3 * low, 1e3 * (low + range), turns.size() - 1,
       found.rests > 0 ? ", where the pressure rests" : "", bins));
+}
+
+// Leaves out the samples of a hold at another length than that of the most: wild readings.
+void leave_out_wild(const std::vector<double>& lengths, double length, const std::string& file,
+                    std::vector<bool>& settled, StaticData& data) {
+  const double far = std::max(same_length * length, 8 * spread(lengths));
+  std::size_t count = 0, one = 0;
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    if (std::abs(lengths[i] - length) <= far) continue;
+    settled[i] = false;
+    one = count++ == 0 ? i : one;
+  }
+  if (count > 0)
+    data.warnings.push_back(
+        fmt::format("{}: {} of {} samples left out, as their length, such as {:.4g} mm, is not "
+                    "that of the hold, {:.4g} mm",
+                    file, count, lengths.size(), 1e3 * lengths[one], 1e3 * length));
 }
 
 Zero add_recording(const Measured& m, const StaticInput& input, StaticData& data) {
   std::vector<double> p = m["pressure"], f = force_of(m);
-  const double length = median(length_of(m, input));
+  const std::vector<double> lengths = length_of(m, input);
+  const double length = median(lengths);
   const Zero zero = vented_start(smooth(p), f, data, m.file);
   for (double& x : p) x -= zero.pressure;
   for (double& x : f) x -= zero.force;
 
   const double range = largest(p) - smallest(p);
   const std::vector<std::size_t> turns = turns_of(smooth(p), turn * range);
-  const std::vector<bool> settled = choose_samples(m, p, data);
+  std::vector<bool> settled = choose_samples(m, p, data);
+  leave_out_wild(lengths, length, m.file, settled, data);
   StaticPoint like{.length = length, .rest_length = input.rest_length, .fitted = input.fitted};
   omit_moving(p, f, settled, like, data);
   for (std::size_t i = 0; i + 1 < turns.size(); ++i) {

@@ -144,6 +144,27 @@ TEST(StaticData, BranchesAndZerosOfARecordingAreFound) {
   }
 }
 
+// A hold stays a hold if single readings of its length are wild, and gives the same points.
+TEST(StaticData, WildLengthsMakeNoSweepOfAHold) {
+  Measured clean = read_at(0.235, recording(0.235, 0, 0, 1)), wild = clean;
+  const auto length =
+      std::ranges::find(wild.columns, "length", &recording::Column::name) - wild.columns.begin();
+  for (const std::size_t row : {0, 500, 2000})
+    wild.columns[static_cast<std::size_t>(length)].values[row] = row == 0 ? 0.0559 : 0.4;
+  StaticData expected, found;
+  add_points(clean, {}, expected);
+  add_points(wild, {}, found);
+  ASSERT_EQ(found.points.size(), expected.points.size());
+  for (std::size_t i = 0; i < found.points.size(); ++i) {
+    EXPECT_EQ(found.points[i].length, 0.235);
+    EXPECT_NEAR(found.points[i].force, expected.points[i].force, 1);
+    EXPECT_EQ(found.points[i].branch, expected.points[i].branch);
+  }
+  ASSERT_FALSE(found.warnings.empty());
+  EXPECT_NE(found.warnings.back().find("3 of 6200 samples left out"), std::string::npos)
+      << found.warnings.back();
+}
+
 // Checks that the sensors' zeros do not change the law.
 TEST(StaticData, ZerosDoNotMatterToTheParameters) {
   const auto identify = [](double f0, double p0) {
@@ -313,7 +334,7 @@ TEST(StaticData, AContractionCountsFromTheRestLength) {
   expect_refused(refusal_of(columns + "\n" + rows),
                  {"a contraction, and no rest length", "rest_length=\"250 mm\""});
   expect_refused(refusal_of("contraction,pressure [kPa gauge],force [N]\n" + rows),
-                 {"values up to 20; expected between 0 and 0.6", "units.contraction=%"});
+                 {"values up to 20; expected between 0 and 0.6", "units.contraction=\"%\""});
 }
 
 TEST(StaticRefusal, NoLength) {

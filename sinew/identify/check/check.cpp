@@ -141,6 +141,47 @@ Check branches(const std::vector<ForceCurve>& curves) {
       ""};
 }
 
+// Checks that readings of equal length, pressure and branch do not contradict each other: then all
+// later ones pull more than the earlier ones, or all of them less, as of another muscle.
+Check one_muscle(const StaticData& data) {
+  constexpr double small = 0.02, large = 0.05;  // shares of the largest force
+  constexpr std::size_t enough = 6;
+  constexpr auto name = "one muscle";
+  double strongest = 0;
+  for (const StaticPoint& p : data.points) strongest = std::max(strongest, p.force);
+  std::vector<double> later;  // later less earlier reading, where they differ
+  std::size_t settings = 0;
+  for (const RepeatedReading& r : repeated_readings(data.points)) {
+    ++settings;
+    if (std::abs(r.last - r.first) > small * strongest) later.push_back(r.last - r.first);
+  }
+  if (settings < enough)
+    return {
+        name, TrafficLight::grey,
+        fmt::format("Not checked: {} of the readings {} repeated at an equal length, pressure "
+                    "and branch, so nothing shows whether all are of one muscle.",
+                    settings == 0 ? "none" : std::to_string(settings), settings < 2 ? "is" : "are"),
+        "Read some points twice, on the way up and down."};
+  const auto more =
+      static_cast<std::size_t>(std::ranges::count_if(later, [](double d) { return d > 0; }));
+  double sum = 0;
+  for (const double d : later) sum += std::abs(d) / static_cast<double>(later.size());
+  const bool is_one_sided = 10 * std::max(more, later.size() - more) >= 9 * later.size();
+  if (later.size() < enough || 2 * later.size() < settings || !is_one_sided ||
+      sum < large * strongest)
+    return {name, TrafficLight::green,
+            fmt::format("{} readings are repeated, and do not contradict each other.", settings),
+            ""};
+  return {name, TrafficLight::yellow,
+          fmt::format("At {} of {} equal lengths, pressures and branches the later reading is {} "
+                      "than the earlier one, by {:.2g} % of the largest force: two muscles, or one "
+                      "that changed.",
+                      std::max(more, later.size() - more), settings,
+                      2 * more > later.size() ? "larger" : "smaller", 100 * sum / strongest),
+          "Check whether all rows are of one muscle; give each its own file, or its rows by "
+          "where=\"COLUMN=WORD\"."};
+}
+
 Check curves_rise(const std::vector<ForceCurve>& curves) {
   const double most = strongest(curves);
   int flat = 0, told = 0;
@@ -195,6 +236,7 @@ void add_curve_checks(const StaticData& data, std::vector<Check>& out) {
   out.push_back(mounts_in_order(curves));
   out.push_back(contraction(curves));
   out.push_back(branches(curves));
+  out.push_back(one_muscle(data));
   out.push_back(curves_rise(curves));
 }
 
@@ -270,35 +312,53 @@ Check pressure_unit(const Reach& r) {
           fmt::format("The pressure goes up to {:.4g} kPa.", kpa), ""};
 }
 
-// Checks for absolute pressures: readings, and the force, then begin at the atmosphere.
-Check gauge_or_absolute(const StaticData& data, const Reach& r) {
-  double longest = 0, threshold = -1e300, first = 0, rest = 0;
-  for (const StaticPoint& p : data.points) rest = std::max(rest, p.rest_length);
+// Start of the force at the longest mount.
+struct ForceStart {
+  double length = 0;          // of that mount [m]
+  double threshold = -1e300;  // gauge pressure at which the straight part starts; very low: unknown
+  double first = 0;           // force at its lowest pressure [N]
+};
+
+ForceStart start_of(const StaticData& data) {
+  ForceStart out;
   for (const ForceCurve& c : curves_of(data.points))
-    if (const auto start = threshold_of(c); start && c.length >= longest) {
-      longest = c.length;
-      threshold = std::max(threshold, *start);
-      first = std::max(first, c.force.front());
+    if (const auto start = threshold_of(c); start && c.length >= out.length) {
+      out.length = c.length;
+      out.threshold = std::max(out.threshold, *start);
+      out.first = std::max(out.first, c.force.front());
     }
-  if (r.lowest >= 0.8 * ambient && threshold < 0 && first <= 0.02 * r.strongest)
+  return out;
+}
+
+// Checks for absolute pressures: readings, and the force, then begin at the atmosphere. A force
+// that is already large at the lowest pressure, or a mount that is shorter than at rest, does not
+// show where the force of a muscle at rest begins.
+Check gauge_or_absolute(const StaticData& data, const Reach& r) {
+  constexpr auto name = "gauge or absolute";
+  const ForceStart start = start_of(data);
+  double rest = 0;
+  for (const StaticPoint& p : data.points) rest = std::max(rest, p.rest_length);
+  if (r.lowest < 0.8 * ambient)
+    return {name, TrafficLight::green,
+            fmt::format("The lowest pressure is {:.4g} kPa, as of a gauge.", r.lowest / 1e3), ""};
+  const double share = start.first / std::max(1e-9, r.strongest);
+  const bool begins_low = start.threshold < 0.85 * ambient;
+  if (start.threshold >= 0 && begins_low && share < 0.15)
+    return {name, TrafficLight::green,
+            "The force begins below the pressure of the atmosphere, as with a gauge.", ""};
+  if (begins_low || (share > 0.02 && start.length < 0.98 * rest))
     return {
-        "gauge or absolute", TrafficLight::grey,
+        name, TrafficLight::grey,
         fmt::format("Not checked: the pressure never falls below {:.4g} kPa, and where the force "
                     "begins is not to be seen.",
                     r.lowest / 1e3),
-        "Read the force at the lowest pressures, too."};
-  if (r.lowest < 0.8 * ambient || threshold < 0.85 * ambient || first > 0.02 * r.strongest)
-    return {"gauge or absolute", TrafficLight::green,
-            r.lowest < 0.8 * ambient
-                ? fmt::format("The lowest pressure is {:.4g} kPa, as of a gauge.", r.lowest / 1e3)
-                : std::string(
-                      "The force begins below the pressure of the atmosphere, as with a gauge."),
-            ""};
-  const bool sure = std::abs(r.lowest - ambient) < 5e3 && rest > 0 && longest > 0.98 * rest;
-  return {"gauge or absolute", sure ? TrafficLight::red : TrafficLight::yellow,
+        "Read the force at the lowest pressures, too, or once with the muscle vented."};
+  const bool sure =
+      share <= 0.02 && std::abs(r.lowest - ambient) < 5e3 && rest > 0 && start.length > 0.98 * rest;
+  return {name, sure ? TrafficLight::red : TrafficLight::yellow,
           fmt::format("The pressure never falls below {:.4g} kPa, and the force begins at {:.4g} "
-                      "kPa: both stand at the atmosphere, 101 kPa.",
-                      r.lowest / 1e3, threshold / 1e3),
+                      "kPa: none is below the atmosphere, 101 kPa.",
+                      r.lowest / 1e3, start.threshold / 1e3),
           "If the column is absolute, try units.COLUMN=\"kPa abs\"."};
 }
 

@@ -122,6 +122,19 @@ const Broken broken[] = {
        i.known_rest = rest;
        each(i, [](Row& r) { r.pressure += 101.3; });
      }},
+    {"absolute called gauge, from 100 kPa on", "gauge or absolute", TrafficLight::yellow,
+     [](Input& i) {
+       i = rig(1, 1, 250, 100);
+       i.known_rest = rest;
+       each(i, [](Row& r) { r.pressure += 101.3; });
+     }},
+    {"a lowest pressure that decides nothing", "gauge or absolute", TrafficLight::grey,
+     [](Input& i) { i = rig(1, 1, 250, 300); }},
+    {"another muscle's rows in the same table", "one muscle", TrafficLight::yellow,
+     [](Input& i) {
+       const Input other = rig(0.8, 2);
+       i.rows.insert(i.rows.end(), other.rows.begin(), other.rows.end());
+     }},
     {"bar called kPa", "readable", TrafficLight::red,
      [](Input& i) { each(i, [](Row& r) { r.pressure /= 100; }); }},
     {"Pa called kPa", "readable", TrafficLight::red,
@@ -241,10 +254,15 @@ TEST(Check, GoodRigsHaveNoRed) {
     in.known_rest = rest;
     in.diameter = 0.01;
     const std::vector<Check> checks = checked(in);
-    // It begins at a pressure, so the cell's zero is unknown.
+    // It begins at a pressure, so the cell's zero is unknown, and no reading is repeated.
     for (const Check& c : checks)
-      EXPECT_EQ(c.light, c.name == "zero of force" ? TrafficLight::grey : TrafficLight::green)
+      EXPECT_EQ(c.light, c.name == "zero of force" || c.name == "one muscle" ? TrafficLight::grey
+                                                                             : TrafficLight::green)
           << seed << ": " << c.name << ": " << c.evidence;
+    const Input again = rig(1, seed + 10);
+    in.rows.insert(in.rows.end(), again.rows.begin(), again.rows.end());
+    const std::vector<Check> repeated = checked(in);
+    EXPECT_EQ(std::ranges::find(repeated, "one muscle", &Check::name)->light, TrafficLight::green);
   }
   EXPECT_FALSE(has_red(checked(rig(1, 6, 250, 100))))
       << words(checked(rig(1, 6, 250, 100)));  // a table that begins at 100 kPa

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 
 #include "sinew/identify/data/quality.h"
@@ -10,7 +11,8 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr double one_length = 2e-4;  // share of the length: noise of equal readings
+constexpr double one_length = 2e-4;    // share of the length: noise of equal readings
+constexpr double one_pressure = 0.01;  // share of the largest pressure
 
 // Returns the largest distance between readings of the same length; others also differ by length.
 double gap_of(std::vector<StaticPoint> points) {
@@ -80,6 +82,36 @@ std::vector<ForceCurve> curves_of(std::vector<StaticPoint> points) {
       own.push_back(points[at]);
     }
     out.push_back(curve_of(own, 0.01 * top));
+  }
+  return out;
+}
+
+std::vector<RepeatedReading> repeated_readings(const std::vector<StaticPoint>& points) {
+  if (points.empty()) return {};
+  const std::vector<double> lengths = values_of(points, &StaticPoint::length);
+  const double longest = largest(lengths), top = largest(values_of(points, &StaticPoint::pressure));
+  const std::vector<int> group = mount_groups(lengths, one_length * longest, one_length * longest);
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+    const StaticPoint& p = points[i];
+    return std::tuple(p.rest_length, static_cast<int>(p.branch), group[i], p.pressure);
+  });
+  const auto is_equal = [&](const StaticPoint& a, const StaticPoint& b) {
+    return a.rest_length == b.rest_length && a.branch == b.branch &&
+           std::abs(a.length - b.length) <= one_length * longest &&
+           std::abs(a.pressure - b.pressure) <= one_pressure * top;
+  };
+  std::vector<RepeatedReading> out;
+  for (std::size_t k = 0; k < order.size();) {
+    const StaticPoint& at = points[order[k]];
+    std::size_t first = order[k], last = order[k], n = 0;
+    for (; k < order.size() && is_equal(at, points[order[k]]); ++k, ++n) {
+      first = std::min(first, order[k]);
+      last = std::max(last, order[k]);
+    }
+    if (n > 1 && at.branch != Branch::unknown)
+      out.push_back({points[first].force, points[last].force});
   }
   return out;
 }

@@ -19,6 +19,15 @@ struct ForceCurve {
 // Returns the curves. Lengths within 0.2 % and pressures within 1 % of the largest are equal.
 std::vector<ForceCurve> curves_of(std::vector<StaticPoint> points);
 
+// Earliest and latest reading of one muscle at one length, pressure and branch.
+struct RepeatedReading {
+  double first = 0, last = 0;  // [N]
+};
+
+// Returns the readings that are repeated, where the branch is known; points are in the order in
+// which they were read. Equality is that of curves_of(), and equal lengths are within 0.02 %.
+std::vector<RepeatedReading> repeated_readings(const std::vector<StaticPoint>& points);
+
 // Returns the interpolated force of a curve; empty outside its pressures.
 std::optional<double> force_at(const ForceCurve& curve, double pressure);
 
