@@ -10,6 +10,7 @@
 #include "sinew/identify/contest/contest.h"
 #include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/data/series.h"
 
 namespace sinew::identify {
 
@@ -40,7 +41,8 @@ constexpr int least_rests = 2;  // fewer: the pressure is let in slowly, and eve
 
 // A recording, and which of its rows are fitted.
 struct Held {
-  std::span<const double> time, force, pressure;
+  std::span<const double> time, force;
+  std::vector<double> pressure;   // without its noise while it rests
   std::vector<std::size_t> rows;  // at which the pressure rests
   double top = 0, pull = 0;       // largest pressure and force [Pa], [N]
 
@@ -165,15 +167,54 @@ void warn_of_pressure(const Measured& m, const actuator::Creep& creep, Report& r
       report.fits[0].fit.rmse_percent));
 }
 
+// Returns the rms distance of values from a line.
+double rms_from(const StraightLine& line, std::span<const double> x, std::span<const double> y) {
+  double squares = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) squares += std::pow(y[i] - line.at(x[i]), 2);
+  return std::sqrt(squares / static_cast<double>(x.size()));
+}
+
+// Takes the noise of the sensor off the pressure of rows `from` to `to`, which are at rest: each is
+// replaced by the line through its longest neighbourhood that is straight to the noise. A law that
+// follows the noise would give creep with a short time in place of a part of its slope, which
+// smooths it: then neither is right, nor are their intervals.
+void smooth_rest(std::span<const double> time, std::size_t from, std::size_t to,
+                 std::vector<double>& pressure) {
+  constexpr std::size_t reaches[] = {50, 25, 12, 6};
+  constexpr double straight = 1.15;  // rms distance from the line, in noises
+  if (to - from < 2 * std::size(reaches)) return;
+  std::vector<double> bends;
+  for (std::size_t i = from + 1; i + 1 < to; ++i)
+    bends.push_back(pressure[i - 1] - 2 * pressure[i] + pressure[i + 1]);
+  const double noise = spread(bends) / std::sqrt(6.0);
+  const std::vector<double> read = pressure;
+  for (std::size_t i = from; i < to; ++i)
+    for (const std::size_t reach : reaches) {
+      const std::size_t first = i < from + reach ? from : i - reach;
+      const std::size_t count = std::min(to, i + reach + 1) - first;
+      const std::span<const double> x = time.subspan(first, count),
+                                    y = std::span(read).subspan(first, count);
+      const StraightLine line = line_through(x, y);
+      if (rms_from(line, x, y) > straight * noise) continue;
+      pressure[i] = line.at(time[i]);
+      break;
+    }
+}
+
 // Prepares a recording for the fit, and notes how many of its rows are not fitted.
 Held held_of(const Measured& data, Report& report) {
-  Held out{.time = data["time"], .force = data["force"], .pressure = data["pressure"]};
+  Held out{.time = data["time"], .force = data["force"], .pressure = data["pressure"], .rows = {}};
   out.top = largest(data["pressure"]);
   out.pull = largest(data["force"]);
   const Settled settled = settled_samples(out.time, out.pressure);
   const bool all = settled.rests < least_rests || data.rows() - settled.moving() < least_rows;
   for (std::size_t i = 0; i < data.rows(); ++i)
     if (all || settled.sample[i]) out.rows.push_back(i);
+  for (std::size_t i = 0; i < out.rows.size();) {
+    const std::size_t first = i;
+    while (i < out.rows.size() && out.rows[i] == out.rows[first] + i - first) ++i;
+    smooth_rest(out.time, out.rows[first], out.rows[i - 1] + 1, out.pressure);
+  }
   if (out.rows.size() < data.rows())
     report.notes.push_back(fmt::format(
         "{} of {} samples are followed and not fitted, as the pressure moves by more than {:.2g} "
