@@ -277,6 +277,7 @@ void check_second_file(const Options<Settings>& options) {
   if (file.empty()) return;
   if (std::is_same_v<Settings, identify::JointSettings>)
     return run::refuse_to_overwrite(file, options.result.force, parameter_file);
+  run::require_folder_of(file);
   identify::refuse_fitted(sources_of(options.data), "predict_dat", file);
   run::refuse_to_overwrite(file, options.result.force, timing_file);
 }

@@ -98,7 +98,8 @@ std::string option_at(std::string_view whole, std::size_t at, std::size_t& taken
   if (is_one_of(name, quoted_settings) && !rest.starts_with("=\"")) return "";
   const bool named = std::ranges::count(renamed, name, &Renamed::setting) > 0;
   const bool value = rest[0] == '=' && rest[1] != ' ' && rest[1] != '=';
-  const bool begins_name = is_letter_of_a_name(rest[1]) || rest[1] == '/';  // as a channel
+  // A channel, or a name in quotes.
+  const bool begins_name = is_letter_of_a_name(rest[1]) || rest[1] == '/' || rest[1] == '"';
   if (!(named ? rest[0] == '.' && begins_name : value)) return "";
   taken += 1;
   if (!rest.substr(1).starts_with("true")) return option_of(name) + " ";

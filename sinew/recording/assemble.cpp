@@ -17,6 +17,8 @@
 namespace sinew::recording {
 namespace {
 
+constexpr double pressure_noise = 2e3;  // of a sensor at a vacuum [Pa]
+
 // --- matching of columns to channels, and conversion of their numbers ---
 
 // A column with its channel.
@@ -72,6 +74,7 @@ class Matcher {
     for (std::size_t f = 0; f < files_.size(); ++f)
       for (std::size_t c = 0; c < files_[f].columns.size(); ++c) column(f, c);
     check_clocks();
+    check_pressures();
     problems_.finish();
     if (out_.columns.empty()) nothing_matched();
     return std::move(out_);
@@ -274,6 +277,27 @@ class Matcher {
         problem(files_[m.file].file, out_.topics[m.target.topic].name,
                 fmt::format("{} and {} with times of their own", a.name, b.name),
                 "fields of one topic that were sampled together");
+    }
+  }
+
+  // Requires that no column of absolute pressures is below zero, beyond the noise of a sensor. One
+  // of gauge pressures is checked by refuse_impossible().
+  void check_pressures() {
+    for (const Matched& m : out_.columns) {
+      if (m.target.topic >= out_.topics.size() || wanted(m.target).unit != "Pa abs") continue;
+      const RecordedColumn& column = files_[m.file].columns[m.column];
+      const auto [bare, reference] = units::unit_and_reference(column.unit);
+      if (reference == "gauge") continue;
+      const auto lowest = std::ranges::min_element(column.values, {}, [](double x) {
+        return std::isnan(x) ? std::numeric_limits<double>::infinity() : x;
+      });
+      if (lowest == column.values.end() || !(m.conversion(*lowest) < -pressure_noise)) continue;
+      problem(files_[m.file].file, column.name,
+              fmt::format("an absolute pressure of {:.4g} kPa", 1e-3 * m.conversion(*lowest)),
+              "none below 0, which is a vacuum",
+              stated_setting("units", column.name,
+                             (bare.empty() ? "kPa" : std::string(bare)) + " gauge") +
+                  ", if it is counted from the atmosphere");
     }
   }
 
@@ -587,9 +611,8 @@ class Assembler {
     if (topic.name.starts_with("/recorded/")) return;
     const bool is_pressure = topic.fields[of.target.field].unit == "Pa";
     const double vacuum = is_gauge_channel(topic.name) ? -joining_.atmosphere : 0.0;
-    constexpr double rounding = 1;    // of a vacuum in another unit [Pa]
     constexpr double of_duty = 1e-6;  // of a duty in another unit [-]
-    const bool below_vacuum = is_pressure && value < vacuum - rounding;
+    const bool below_vacuum = is_pressure && value < vacuum - pressure_noise;
     const bool is_no_duty =
         topic.name.ends_with("_duty") && (value < -of_duty || value > 1 + of_duty);
     if (!below_vacuum && !is_no_duty) return;

@@ -520,6 +520,14 @@ TEST_F(AssembleTest, ReportsWhatIsWrongAndWhatToDo) {
   const std::string pressure = "time [s],flexor_pressure [bar gauge]\n0,1\n0.01,";
   refused(pressure + "-3\n", {}, "/muscle/flexor/pressure: found -3 bar gauge at 0.01 s");
   EXPECT_EQ(error_of({put("vacuum.csv", pressure + "-1.01325\n")}), "no error");
+  // A name of two words and its unit are one word of a shell.
+  Mapping vacuum;
+  map_channel(vacuum, "/muscle/flexor/pressure", "flexor p");
+  const std::string below =
+      error_of({put("v.csv", "time [s],flexor p [bar abs]\n0,1\n0.01,-0.4\n")}, vacuum);
+  for (const char* part :
+       {"an absolute pressure of -40 kPa", "none below 0", "try units.\"flexor p=bar gauge\", if"})
+    EXPECT_NE(below.find(part), std::string::npos) << part << "\nin: " << below;
 
   const std::string none = error_of({put("n.csv", "Winkel [deg]\n1\n2\n")}, angle_is("Winkel"));
   EXPECT_NE(none.find("time"), std::string::npos) << none;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "sinew/config/utf8.h"
@@ -73,6 +74,16 @@ std::string_view without_brackets(std::string_view text) {
   const bool square = text.size() > 2 && text.front() == '[' && text.back() == ']';
   const bool round = text.size() > 2 && text.front() == '(' && text.back() == ')';
   return square || round ? trimmed(text.substr(1, text.size() - 2)) : text;
+}
+
+std::string stated_setting(std::string_view setting, std::string_view name,
+                           std::string_view value) {
+  const bool is_word = std::ranges::all_of(name, [](char c) {
+    const auto u = static_cast<unsigned char>(c);
+    return u >= 128 || std::isalnum(u) != 0 || c == '_' || c == '/' || c == '.' || c == '-';
+  });
+  return is_word ? fmt::format("{}.{}=\"{}\"", setting, name, value)
+                 : fmt::format("{}.\"{}={}\"", setting, name, value);
 }
 
 bool is_unit_cell(std::string_view text) {
@@ -267,7 +278,7 @@ void ColumnResolver::refuse_unit(std::size_t column, const WantedColumn& wanted,
   const std::string usual = units::usual_units(wanted.unit).front();
   if (unit.empty()) {
     problem.found = fmt::format("the column {} without a unit", config::in_quotes(h.name));
-    problem.try_this = fmt::format("units.{}=\"{}\"", h.name, usual);
+    problem.try_this = stated_setting("units", h.name, usual);
     if (header_.line > 0)
       problem.try_this =
           fmt::format("`{} [{}]` in the header, or {}", h.name, usual, problem.try_this);
@@ -277,9 +288,14 @@ void ColumnResolver::refuse_unit(std::size_t column, const WantedColumn& wanted,
       problem.found += fmt::format(" of the column {}", config::in_quotes(h.name));
     problem.try_this = advice;
     if (advice.starts_with("a quantity such as"))  // unit of another dimension
-      problem.try_this =
-          fmt::format("names.{}=NAME of another column, or units.{}=\"{}\" if this unit is wrong",
-                      wanted.name, h.name, usual);
+      problem.try_this = fmt::format("names.{}=NAME of another column, or {} if this unit is wrong",
+                                     wanted.name, stated_setting("units", h.name, usual));
+    // A weight in kg is a force in kgf, which is a unit of tables.
+    const std::string weight = unit + "f";
+    if (wanted.unit == "N" && units::is_unit(unit) &&
+        (units::is_unit(weight) || !units::spellings(weight).empty()))
+      problem.try_this = fmt::format("{} for the weight of that mass: {} is mass, {} is force",
+                                     stated_setting("units", h.name, weight), unit, weight);
   }
   problems_.add(std::move(problem));
 }

@@ -47,6 +47,10 @@ bool is_unit_cell(std::string_view text);
 // Returns the text without brackets around a unit.
 std::string_view without_brackets(std::string_view text);
 
+// Returns "units.force="kPa gauge"", a setting that gives a name a value, as advice. A name that is
+// not one word is in the quotes, "units."Druck 1=kPa gauge"", so that a shell takes both as one.
+std::string stated_setting(std::string_view setting, std::string_view name, std::string_view value);
+
 // Header of one file.
 struct Header {
   std::string file;

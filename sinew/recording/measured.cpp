@@ -194,15 +194,17 @@ void WantedColumns::convert(const ColumnSpec& w, FoundColumn& f) {
 }
 
 // Returns units of the wanted dimension with which the file's number would be in range: "mm or in".
-std::string possible_units(const ColumnSpec& spec, double number) {
+std::string possible_units(const ColumnSpec& spec, double number, const std::string& column) {
   const auto [unit, reference] = units::unit_and_reference(spec.unit);
   std::string out;
   const units::Dimension dimension = units::read_unit(unit).unit.dimension;
   for (const units::Unit& u : units::known_units) {
     const double size = std::abs(number) * u.numerator / u.denominator;
     if (!(u.dimension == dimension) || size < spec.least || size > spec.most) continue;
-    if (!out.empty()) out += " or ";
-    out += fmt::format("{}{}{}", u.name, reference.empty() ? "" : " ", reference);
+    const std::string setting = stated_setting(
+        "units", column, fmt::format("{}{}{}", u.name, reference.empty() ? "" : " ", reference));
+    // Only the first has the whole setting; of the others what is in quotes is enough.
+    out += out.empty() ? setting : " or " + setting.substr(setting.find('"'));
   }
   return out;
 }
@@ -389,14 +391,15 @@ class Table {
                            unit == "1" ? "" : " ", unit == "1" ? "" : unit);
       };
       const bool bare = f.unit.empty() && w.unit == "1" && !f.constant;
-      const std::string others = in_file || bare ? possible_units(w, f.conversion.back(size)) : "";
       const bool there = f.index < grid_.headings().size();
       const Heading heading = there ? grid_.headings()[f.index] : Heading{};
+      const std::string others =
+          in_file || bare ? possible_units(w, f.conversion.back(size), heading.name) : "";
       problems_.add(grid_.header().line, heading.column, std::string(w.name),
                     "values up to " + shown(size),
                     fmt::format("between {} and {}: a wrong unit, or another column",
                                 shown(w.least), shown(w.most)),
-                    others.empty() ? "" : fmt::format("units.{}={}", heading.name, others));
+                    others);
     }
   }
 

@@ -133,9 +133,8 @@ class RawReader {
                   unit.empty() ? "times without a unit" : "the unit " + config::in_quotes(unit),
                   "s, ms, us, min or h",
                   looks_like_days() ? std::string("dates=excel, if these are Excel's days")
-                                    : fmt::format("units.{}=s, or rate=\"100 Hz\" in place of "
-                                                  "this clock",
-                                                  h.name));
+                                    : stated_setting("units", h.name, "s") +
+                                          ", or rate=\"100 Hz\" in place of this clock");
   }
 
   double first_number() const {
@@ -289,8 +288,8 @@ class RawReader {
     if (!whole || step < 2) return;
     const std::string& name = clock_heading().name;
     out.notes.push_back(
-        fmt::format("{}: a row every {:.4g} s, {:.3g} h in all; if it counts ms, give units.{}=ms",
-                    name, step, out.time.back() / 3600, name));
+        fmt::format("{}: a row every {:.4g} s, {:.3g} h in all; if it counts ms, give {}", name,
+                    step, out.time.back() / 3600, stated_setting("units", name, "ms")));
   }
 
   void note_missing(RawTable& out) const {

@@ -152,7 +152,7 @@ TEST(Wrong, ImpossibleClocksAreReported) {
        "expected a time of its own for each row; try spread_times=true"},
       {"time,F [N]\n0,1\n1,1\n",
        "time: found times without a unit; expected s, ms, us, min or h; "
-       "try units.time=s, or rate=\"100 Hz\""},
+       "try units.time=\"s\", or rate=\"100 Hz\""},
       {"time [mm],F [N]\n0,1\n1,1\n", "time: found the unit \"mm\"; expected s, ms, us, min or h"},
       {"Date,F [N]\n46350.5,5\n46350.6,6\n", "dates=excel, if these are Excel's days"},
       {"time [s],F [N]\n0,1\n,1\n2,3\n",
@@ -322,12 +322,14 @@ TEST(Wrong, UnitsAreReportedInTheWordsOfTheFile) {
         "abs\""},
        {"pressure [mbar],force [N]\n2000,20\n", "try \"mbar gauge\" or \"mbar abs\""},
        {"pressure [barg],force [lbs]\n2,20\n", "\"lb\" for mass, \"lbf\" for force"},
-       {"pressure [barg],force [kg]\n2,20\n", "try N: kg and g are mass, N is force"},
+       {"pressure [barg],force [kg]\n2,20\n",
+        "try units.force=\"kgf\" for the weight of that mass"},
        {"pressure [furlong],force [N]\n2,20\n", "the unit \"furlong\""},
        {"pressure [mbarg],force [N]\n2,20\n",
         "pressure: found values up to 2 mbarg; expected between 10 mbarg and 2e+04 mbarg: a wrong "
         "unit, "
-        "or another column; try units.pressure=kPa gauge or MPa gauge or bar gauge or psi gauge"},
+        "or another column; try units.pressure=\"kPa gauge\" or \"MPa gauge\" or \"bar gauge\" or "
+        "\"psi gauge\""},
        {"pressure [psig],force [kN]\n20,2000\n",
         "found values up to 2000 kN; expected between "
         "0.001 kN and 100 kN"},
@@ -357,7 +359,7 @@ TEST(Wrong, WhatIsLeftOutIsNoted) {
   std::string slow = "time [s],F [N]\n";
   for (int i = 0; i < 30; ++i) slow += std::to_string(10 * i) + ",1\n";
   EXPECT_EQ(notes(slow),
-            "time: a row every 10 s, 0.0806 h in all; if it counts ms, give units.time=ms\n");
+            "time: a row every 10 s, 0.0806 h in all; if it counts ms, give units.time=\"ms\"\n");
 }
 
 }  // namespace

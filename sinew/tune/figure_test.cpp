@@ -51,6 +51,9 @@ TEST(Figure, ReportsWhatIsWrong) {
   EXPECT_NE(of("trolley.distance_m [in").find("a bracket that closes"), std::string::npos);
   EXPECT_NE(of("trolley.distance_m in").find("in brackets the unit"), std::string::npos);
   EXPECT_NE(of("a,,b").find("a key of summary.json"), std::string::npos);
+  EXPECT_NE(of("air_used [g]").find("try \"air_used_kg [g]\""), std::string::npos);
+  EXPECT_NE(of("joints.hip.tracking_rms [deg]").find("try \"joints.hip.tracking_rms_rad [deg]\""),
+            std::string::npos);
   EXPECT_EQ(nearest_key("trolley.distanc_m", summary()), "trolley.distance_m");
   EXPECT_EQ(nearest_key("trolley.distance_m", summary()), "");
   EXPECT_EQ(nearest_key("something.else", summary()), "");
@@ -68,6 +71,9 @@ TEST(Condition, ComparesInSi) {
   EXPECT_NE(of("passiveness").find("key < value"), std::string::npos);
   EXPECT_NE(of("< 3").find("key < value"), std::string::npos);
   EXPECT_NE(of("trolley.distance_m < 3").find("without a unit"), std::string::npos);
+  for (const char* heading : {"air_used [g] < 3", "air_used_kg [g] < 3", "air_used [g] < 3 g"})
+    EXPECT_NE(of(heading).find("try \"air_used_kg < 3 g\""), std::string::npos) << of(heading);
+  EXPECT_NE(of("air_used < 3 g").find("try \"air_used_kg\""), std::string::npos);
 }
 
 // The edge of a step is found within the interval after its halvings.

@@ -22,6 +22,8 @@ TEST(Settings, AreReportedAsOptions) {
             "try another one, or --force to replace it");
   EXPECT_EQ(as_options("try full_scale=\"10 V\", units.gage=V or drop_incomplete=true"),
             "try --full-scale \"10 V\", --unit gage=V or --drop-incomplete");
+  EXPECT_EQ(as_options("try units.\"Druck 1=kPa gauge\" or \"Druck 1=kPa abs\""),
+            "try --unit \"Druck 1=kPa gauge\" or \"Druck 1=kPa abs\"");
   EXPECT_EQ(as_options("try names.flexor_pressure=NAME (known=load)"),
             "try --map flexor_pressure=NAME (--known load)");
   EXPECT_EQ(as_options("try length=\"200 mm\""), "try --length \"200 mm\"");

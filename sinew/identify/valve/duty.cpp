@@ -178,7 +178,7 @@ ValveResult identify_duty(const Measured& data, const ValveOptions& options) {
   out.valve.profile = gas::Valve::Profile::dead_time;
   if (!out.opening_known)
     out.refused = fmt::format(
-        "opening_delay: found its difference from closing_delay alone, {:.4g} ms; expected a duty "
+        "delays: found their difference alone, {:.4g} ms; expected a duty "
         "that delivers nothing or a smaller one than 1 that delivers everything: the straight part "
         "of the map does not separate the delays; try smaller and larger duties, or a higher "
         "frequency",

@@ -198,9 +198,9 @@ ValveResult identify_pulses(const Measured& data, const ValveOptions& options) {
   }
   if (!out.opening_known || !out.closing_known)
     out.refused = fmt::format(
-        "{}: found no instant the pressure determines; expected pulses that the pressure follows; "
-        "try more pulses, a smaller volume, or a faster sampling",
-        out.opening_known ? "closing_delay" : "opening_delay");
+        "delays: found no instant of {} that the pressure determines; expected pulses that the "
+        "pressure follows; try more pulses, a smaller volume, or a faster sampling",
+        out.opening_known ? "closing" : "opening");
   return out;
 }
 

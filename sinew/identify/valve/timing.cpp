@@ -15,9 +15,10 @@ CompensatedTiming compensated(double opening_delay, double closing_delay, double
   const double tick = 1.0 / (period * frequency);
   const int lead = static_cast<int>(std::lround(opening_delay / tick));
   if (lead >= period)
-    throw Refusal("opening_delay",
-                  fmt::format("{:.3g} ms at {:g} Hz", 1e3 * opening_delay, frequency),
-                  "less than the period of the pulses", "a lower frequency");
+    throw Refusal(
+        "delays",
+        fmt::format("{:.3g} ms until it opens, at {:g} Hz", 1e3 * opening_delay, frequency),
+        "less than the period of the pulses", "a lower frequency");
   const auto open = static_cast<std::uint16_t>(period - lead);
 
   // The coil is on from `open` of the last period to `close` of this one, with at least a tick off
