@@ -99,10 +99,8 @@ void bind_ensemble(py::module_& m) {
           "too.\n"
           "`progress` is called with the numbers of completed and of all runs; an exception that\n"
           "it raises ends the ensemble, as Ctrl-C does. Raises ValueError for another shape,\n"
-          "InputError for a figure that neither these runs nor the experiment as it is have, if "
-          "it\n"
-          "resembles one of theirs or if none begins with its first part, and RuntimeError for a\n"
-          "card that cannot be used.")
+          "InputError for a figure that neither these runs nor the experiment as it is have and\n"
+          "that resembles one of theirs, and RuntimeError for a card that cannot be used.")
       .def(
           "__call__",
           [](const HeldEnsemble& self, const py::object& values, int threads,

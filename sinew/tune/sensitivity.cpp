@@ -395,7 +395,7 @@ Design design_of(std::string_view method, std::size_t ranges, int count, int see
   out.count = static_cast<std::size_t>(count > 0 ? count : usual);
   if (count > 0 && out.method == Method::one_at_a_time)
     config::fail({"points", 0, 0}, "", std::to_string(count),
-                 "no number of points: the method runs both ends of each range once");
+                 "a count for sobol or morris: ends runs both ends of each range once");
   if (out.method == Method::sobol && !std::has_single_bit(out.count))
     config::fail({"points", 0, 0}, "", std::to_string(count),
                  "a power of two, for which the points of the sequence are spread evenly",

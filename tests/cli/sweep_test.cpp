@@ -23,7 +23,7 @@ const std::string bench = "experiments/one-joint.toml";
 TEST(Sweep, InterruptedKeepsWhatIsDone) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const Workspace w;
-    write_text(w / "t.csv", "an older table\n");
+    write_text(w / "t.csv", "an older table,status\n");
     const pid_t pid = w.start({"sweep", bench, "--seeds", "10000", "--report", "duration_s", "-o",
                                "t.csv", "--force", "--quiet"});
     for (int i = 0; i < 1000 && !fs::exists(w / "t.csv.part"); ++i)
@@ -34,7 +34,7 @@ TEST(Sweep, InterruptedKeepsWhatIsDone) {
     ASSERT_TRUE(WIFEXITED(status)) << "it should end by itself at signal " << signal;
     EXPECT_EQ(WEXITSTATUS(status), 1);
     EXPECT_THAT(read_text(w / "err"), HasSubstr("kept in t.csv.part"));
-    EXPECT_EQ(read_text(w / "t.csv"), "an older table\n");
+    EXPECT_EQ(read_text(w / "t.csv"), "an older table,status\n");
     const std::string text = read_text(w / "t.csv.part");
     EXPECT_THAT(text, AllOf(StartsWith("seed,status\n1,ok\n"), EndsWith(",ok\n")));
   }

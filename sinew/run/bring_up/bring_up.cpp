@@ -566,8 +566,8 @@ config::Node joints_of(const robot::Robot& robot, std::string_view key, bool ang
   return out;
 }
 
-// Refuses a folder with a file that the bring-up would replace and that is none of its own. Its
-// robot.toml is never there without its list of steps.
+// Refuses a folder with another program's or the user's file that the bring-up would replace. Its
+// own robot.toml never exists without its list of steps.
 void refuse_other_files(const fs::path& folder) {
   constexpr FileKind bench{"experiment of `sinew bring-up`", "such a file",
                            "source=\"sinewbring-up\"", FileKind::At::anywhere, "another folder"};

@@ -75,14 +75,6 @@ void describe(const experiment::Experiment& e, analysis::Machine& out) {
   }
 }
 
-// Returns whether a figure begins with the same part as the key: "joints".
-bool has_first_part(std::string_view key, const analysis::Summary& summary) {
-  const auto part = [](std::string_view text) { return text.substr(0, text.find('.')); };
-  return std::ranges::any_of(summary.entries(), [&](const analysis::Entry& entry) {
-    return part(entry.key) == part(key);
-  });
-}
-
 std::string status_of(const experiment::Experiment& e, const Outcome& outcome) {
   if (outcome.ended_early()) return "ended early: " + cause_of(e, outcome);
   if (!outcome.table.complete) return "more valve edges than there was room for";
@@ -332,23 +324,16 @@ analysis::Summary Ensemble::figures_as_it_is() const {
 }
 
 // Checks the wanted figures with those of a whole run. A figure that this run lacks is not refused
-// if the experiment as it is has it. Its name is wrong if it resembles another one, or if no figure
-// begins with its first part.
+// if the experiment as it is has it.
 void Ensemble::check_figures(const analysis::Summary& whole) const {
   std::vector<std::string> doubtful = figures_;
-  std::erase_if(doubtful, [&](const std::string& key) {
-    return whole.exists(key) ||
-           (has_first_part(key, whole) && analysis::nearest_key(key, whole).empty());
-  });
+  std::erase_if(doubtful,
+                [&](const std::string& key) { return analysis::nearest_key(key, whole).empty(); });
   if (doubtful.empty()) return;
   const analysis::Summary as_it_is = figures_as_it_is();
   try {
-    for (const std::string& key : doubtful) {
-      if (as_it_is.exists(key)) continue;
-      analysis::refuse_misspelt(key, whole, "figures");
-      config::fail({"figures", 0, 0}, "", config::in_quotes(key), "a key of summary.json",
-                   "one of those that a run has");
-    }
+    for (const std::string& key : doubtful)
+      if (!as_it_is.exists(key)) analysis::refuse_misspelt(key, whole, "figures");
   } catch (const config::Error&) {
     const std::lock_guard lock(mutex_);
     misspelt_ = std::current_exception();
@@ -415,7 +400,7 @@ std::vector<std::string> Ensemble::run(std::span<const double> values, std::span
           .stopped = [&] { return options.stop && options.stop->load(); },
           .notice = options.notice},
          host::threads_of(options.threads));
-  // Where no run has figures, their names are checked with the experiment as it is.
+  // Checks the names of the figures where no run has figures.
   const bool is_stopped = options.stop && options.stop->load();
   if (rows > 0 && !is_stopped && std::ranges::find(status, "ok") == status.end())
     if (const analysis::Summary as_it_is = figures_as_it_is(); !as_it_is.entries().empty())

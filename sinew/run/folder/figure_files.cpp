@@ -175,7 +175,7 @@ std::vector<std::string> replaceable(const fs::path& folder, const std::string& 
   refuse_to_overwrite(folder / index_name, force, figures_kind);
   for (const std::string& name : files_of(Json::parse(index)))
     if (fs::exists(folder / name) && std::ranges::find(old, name) == old.end())
-      refuse(folder / name, "a file that is none of the figures of " + std::string(index_name),
+      refuse(folder / name, "a file that " + std::string(index_name) + " does not list",
              "an unused name", "another folder, or to move that file elsewhere");
   return old;
 }

@@ -41,8 +41,8 @@ struct Reach {
 
   // Returns whether only the start takes the joint to this angle.
   bool is_of_start(double angle) const {
-    constexpr double equal = 1e-6;
-    return angle == start && least <= most && (angle < least - equal || angle > most + equal);
+    const double from_middle = std::remainder(start - (least + most) / 2, 2 * std::numbers::pi);
+    return angle == start && least <= most && std::abs(from_middle) > (most - least) / 2 + 1e-6;
   }
 };
 
