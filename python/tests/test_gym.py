@@ -340,10 +340,11 @@ class Vector(unittest.TestCase):
 
     def test_a_seed_may_be_numpys(self) -> None:
         env, many = sinew.gym.Env("walk"), sinew.gym.VectorEnv("walk", 2)
-        for seed in (numpy.int64(3), numpy.uint8(3), numpy.array(3)):
+        seeds: Any = (numpy.int64(3), numpy.uint8(3), numpy.array(3), numpy.array([7, 5]))
+        for seed in seeds[:3]:
             self.assertEqual(env.reset(seed=seed)[1]["seed"], 3)
             self.assertEqual(list(many.reset(seed=seed)[1]["seed"]), [3, 4])
-        self.assertEqual(list(many.reset(seed=numpy.array([7, 5]))[1]["seed"]), [7, 5])
+        self.assertEqual(list(many.reset(seed=seeds[3])[1]["seed"]), [7, 5])
         wrong: Any = 3.5
         with self.assertRaises(TypeError):
             many.reset(seed=wrong)
@@ -362,10 +363,10 @@ class Vector(unittest.TestCase):
         self.assertNotEqual(seen[0].tobytes(), seen[1].tobytes())
         with self.assertRaisesRegex(sinew.InputError, "link.femur.maas"):
             sinew.gym.VectorEnv("walk", 2, parameters=["link.femur.maas"], values=[0.3])
-        for wrong in (0.3, [0.3, 0.2], [[0.3]]):
-            of_seeds = sinew.gym.VectorEnv(
-                "walk", 2, parameters=["link.femur.mass"], values=lambda seed: wrong
-            )
+        rows: Any = (0.3, [0.3, 0.2], [[0.3]])
+        for wrong in rows:
+            row_of: Any = lambda seed, row=wrong: row
+            of_seeds = sinew.gym.VectorEnv("walk", 2, parameters=["link.femur.mass"], values=row_of)
             with self.assertRaisesRegex(ValueError, r"for seed 1; expected \(1,\)"):
                 of_seeds.reset(seed=1)
         with self.assertRaisesRegex(ValueError, "threads: found -1"):

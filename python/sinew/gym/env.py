@@ -2,7 +2,7 @@
 
 import copy
 import operator
-from typing import Any, Callable, Dict, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Optional, Sequence, SupportsIndex, Tuple, Union
 
 import numpy
 import numpy.typing
@@ -96,13 +96,13 @@ class _Seeds:
     def __init__(self) -> None:
         self._random = numpy.random.default_rng()
 
-    def next(self, seed: Optional[int]) -> int:
+    def next(self, seed: Optional[SupportsIndex]) -> int:
         if seed is not None:
-            seed = operator.index(seed)
-            if not 0 <= seed < 2**31:
-                raise ValueError(f"seed: found {seed}; expected 0 to 2147483647")
-            self._random = numpy.random.default_rng(seed)
-            return seed
+            number = operator.index(seed)
+            if not 0 <= number < 2**31:
+                raise ValueError(f"seed: found {number}; expected 0 to 2147483647")
+            self._random = numpy.random.default_rng(number)
+            return number
         return int(self._random.integers(2**31))
 
 
@@ -163,7 +163,7 @@ class Env(_Base):  # type: ignore[misc]
         return self._episode
 
     def reset(
-        self, *, seed: Optional[int] = None, options: Optional[Dict[str, Any]] = None
+        self, *, seed: Optional[SupportsIndex] = None, options: Optional[Dict[str, Any]] = None
     ) -> Tuple["numpy.typing.NDArray[numpy.float64]", Info]:
         """Begin an episode. Without a seed, it is derived from the last one given.
 
@@ -304,7 +304,7 @@ class VectorEnv:
     def reset(
         self,
         *,
-        seed: Optional[Union[int, Sequence[int]]] = None,
+        seed: Optional[Union[SupportsIndex, Sequence[SupportsIndex]]] = None,
         options: Optional[Dict[str, Any]] = None,
     ) -> Tuple["numpy.typing.NDArray[numpy.float64]", Info]:
         """Restart all environments. `seed`: seed of the first, increased by 1 for each next; or a list.
@@ -318,10 +318,10 @@ class VectorEnv:
         _refuse(options)
         if not self._has_values:
             raise ValueError(f"values: found none; expected those of {', '.join(self.parameters)}")
-        seeds: "Sequence[Optional[int]]"
+        seeds: "Sequence[Optional[SupportsIndex]]"
         if seed is None:
             seeds = [None] * self.num_envs
-        elif hasattr(seed, "__index__") and numpy.ndim(seed) == 0:
+        elif isinstance(seed, SupportsIndex) and numpy.ndim(seed) == 0:  # type: ignore[arg-type]
             first = operator.index(seed)
             seeds = [first + i for i in range(self.num_envs)]
         else:
