@@ -57,7 +57,7 @@ std::string no_text(const std::string& text) {
 }
 
 void complete(CLI::Option& option) {
-  if (takes_value(option)) option.check(CLI::Validator(no_text, ""));
+  if (takes_value(option) && !names_of(option).empty()) option.check(CLI::Validator(no_text, ""));
   const std::string type = option.get_type_name(), word = type.substr(0, type.find(':'));
   if (word == "TEXT") option.type_name("VALUE");
   if (word == "FLOAT") option.type_name("NUMBER")->check(CLI::Validator(no_number, ""));
