@@ -36,7 +36,7 @@ TEST(Sweep, InterruptedKeepsWhatIsDone) {
     EXPECT_THAT(read_text(w / "err"), HasSubstr("kept in t.csv.part"));
     EXPECT_EQ(read_text(w / "t.csv"), "an older table,status\n");
     const std::string text = read_text(w / "t.csv.part");
-    EXPECT_THAT(text, AllOf(StartsWith("seed,status\n1,ok\n"), EndsWith(",ok\n")));
+    EXPECT_THAT(text, AllOf(StartsWith("seed,duration [s],status\n1,13,ok\n"), EndsWith(",ok\n")));
   }
 }
 
