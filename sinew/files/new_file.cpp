@@ -162,6 +162,7 @@ struct Subject {
   fs::path file;
   std::vector<Joint> joints{
       {.name = std::string(template_joint), .in_plan = std::string(template_joint)}};
+  bool has_ground = false;      // whether the feet of a robot could touch it
   bool plan_has_gains = false;  // its [control.gains] hold instead of the robot's
   bool seals = true;            // whether the valves of the first driven joint shut its muscles off
 };
@@ -350,6 +351,8 @@ Subject subject_of(const std::string& kind, const NewOptions& options) {
   const auto first = std::ranges::find_if(out.joints, &Joint::driven);
   if (first == out.joints.end())
     config::fail({options.of, 0, 0}, "joint", "no joint with muscles", "one at least");
+  const config::Node* ground = config::value_at(root, "ground.present");
+  out.has_ground = ground && (ground->is_value_table() ? ground->find("value") : ground)->flag;
   if (!study) return out;
   const std::string gains = fmt::format("control.gains.{}.angle", first->in_plan);
   out.plan_has_gains = config::value_at(root, gains) != nullptr;
@@ -394,6 +397,10 @@ Draft draft(const Task& task, const std::string& part, const fs::path& file) {
   if (task.kind == "actuator") replace_all(out.text, "= \"bpa\"", "= \"NEW\"");
   name_joints(out.text, task.subject.joints);
   name_first_joint(out.text, task.subject);
+  if (part == "experiment" && task.subject.has_ground)
+    out.text +=
+        "\n# The feet move in the air: about the joints' rest angles they could be in the ground.\n"
+        "[ground]\npresent = false\n";
   put_name(out.text, task.name, in_comment(file));
   if (part == "experiment" || is_study(part)) {
     const std::string key = is_study(part) ? "experiment = " : "robot  = ";
