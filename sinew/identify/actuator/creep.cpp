@@ -45,6 +45,7 @@ struct Held {
   std::vector<double> pressure;   // without its noise while it rests
   std::vector<std::size_t> rows;  // at which the pressure rests
   double top = 0, pull = 0;       // largest pressure and force [Pa], [N]
+  double noise = 0;               // that was taken off the pressure [Pa]
 
   // Returns the index of the time stretch that contains a row.
   int stretch(std::size_t row) const {
@@ -129,6 +130,9 @@ Candidate candidate_of(const Held& held, const Form& form) {
 Trial trial_of(const Held& held) {
   Trial out{.measured = {held.force.begin(), held.force.end()}, .rows = held.rows};
   out.cross_validates = true;
+  // The noise of the pressure is in the mean that is left of it, and so in the intervals.
+  out.weights.assign(held.force.size(), 1);
+  out.variances.assign(held.force.size(), std::pow(held.pull / held.top * held.noise, 2));
   out.band_where = "while the pressure rests";
   for (int parity = 0; parity < 2; ++parity) {
     Split& split = out.splits.emplace_back();
@@ -177,12 +181,12 @@ double rms_from(const StraightLine& line, std::span<const double> x, std::span<c
 // Takes the noise of the sensor off the pressure of rows `from` to `to`, which are at rest: each is
 // replaced by the line through its longest neighbourhood that is straight to the noise. A law that
 // follows the noise would give creep with a short time in place of a part of its slope, which
-// smooths it: then neither is right, nor are their intervals.
-void smooth_rest(std::span<const double> time, std::size_t from, std::size_t to,
-                 std::vector<double>& pressure) {
+// smooths it: then neither is right, nor are their intervals. Returns the noise [Pa].
+double smooth_rest(std::span<const double> time, std::size_t from, std::size_t to,
+                   std::vector<double>& pressure) {
   constexpr std::size_t reaches[] = {50, 25, 12, 6};
   constexpr double straight = 1.15;  // rms distance from the line, in noises
-  if (to - from < 2 * std::size(reaches)) return;
+  if (to - from < 2 * std::size(reaches)) return 0;
   std::vector<double> bends;
   for (std::size_t i = from + 1; i + 1 < to; ++i)
     bends.push_back(pressure[i - 1] - 2 * pressure[i] + pressure[i + 1]);
@@ -199,6 +203,7 @@ void smooth_rest(std::span<const double> time, std::size_t from, std::size_t to,
       pressure[i] = line.at(time[i]);
       break;
     }
+  return noise;
 }
 
 // Prepares a recording for the fit, and notes how many of its rows are not fitted.
@@ -213,7 +218,8 @@ Held held_of(const Measured& data, Report& report) {
   for (std::size_t i = 0; i < out.rows.size();) {
     const std::size_t first = i;
     while (i < out.rows.size() && out.rows[i] == out.rows[first] + i - first) ++i;
-    smooth_rest(out.time, out.rows[first], out.rows[i - 1] + 1, out.pressure);
+    out.noise = std::max(out.noise,
+                         smooth_rest(out.time, out.rows[first], out.rows[i - 1] + 1, out.pressure));
   }
   if (out.rows.size() < data.rows())
     report.notes.push_back(fmt::format(

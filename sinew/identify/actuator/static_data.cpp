@@ -124,11 +124,21 @@ void refuse_falling(const Measured& m, const std::vector<double>& force,
 // Returns running medians, so that the noise of single samples makes no turns.
 std::vector<double> smooth(std::span<const double> values) { return running_medians(values, 7); }
 
+// Returns running medians without wild readings at the ends, where medians are of few samples.
+std::vector<double> without_wild_ends(std::span<const double> values) {
+  constexpr std::size_t end = 3;
+  std::vector<double> out = smooth(values);
+  if (out.size() < 4 * end) return out;
+  std::fill_n(out.begin(), end, out[end]);
+  std::fill_n(out.rbegin(), end, out[out.size() - 1 - end]);
+  return out;
+}
+
 // Returns whether the length of the muscle changes during the recording. Single wild readings do
 // not count.
 bool is_sweep(const Measured& m, const std::vector<double>& length) {
   if (!m.has("time")) return false;
-  const std::vector<double> smoothed = smooth(length);
+  const std::vector<double> smoothed = without_wild_ends(length);
   return largest(smoothed) - smallest(smoothed) > same_length * median(length);
 }
 
@@ -272,7 +282,7 @@ void add_sweep(const Measured& m, const StaticInput& input, StaticData& data) {
   const std::vector<double> l = length_of(m, input), f = force_of(m);
   const Settled found = settled_samples(m["time"], p);
   const std::vector<bool> settled = found.rests > 0 ? found.sample : std::vector(p.size(), true);
-  const std::vector<double> smoothed = smooth(l);
+  const std::vector<double> smoothed = without_wild_ends(l);
   const double low = smallest(smoothed), range = largest(smoothed) - low, top = largest(p);
   const std::vector<std::size_t> turns = turns_of(smoothed, turn * range);
   const std::vector<int> level = groups_of(p, same_pressure * top, 5 * same_pressure * top);
