@@ -130,7 +130,7 @@ Candidate candidate_of(const Held& held, const Form& form) {
 Trial trial_of(const Held& held) {
   Trial out{.measured = {held.force.begin(), held.force.end()}, .rows = held.rows};
   out.cross_validates = true;
-  // The noise of the pressure is in the mean that is left of it, and so in the intervals.
+  // The mean keeps a part of the pressure's noise, which therefore widens the intervals.
   out.weights.assign(held.force.size(), 1);
   out.variances.assign(held.force.size(), std::pow(held.pull / held.top * held.noise, 2));
   out.band_where = "while the pressure rests";

@@ -144,7 +144,8 @@ void MuscleRouting::at(const double* angle, const double* rate, air::Lanes<M>& l
   }
 }
 
-// What the losses and ends of the muscles add to a joint: c r^2 and k r^2 at the largest radius.
+// Damping and stiffness that the losses and ends of the muscles add to a joint: c r^2 and k r^2 at
+// the largest radius.
 struct MusclesAtJoint {
   double damping = 0;    // [N m s/rad]
   double stiffness = 0;  // of their ends [N m/rad]
