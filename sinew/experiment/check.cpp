@@ -277,7 +277,7 @@ double start_depth(const Experiment& e, std::size_t leg,
 // at rest presses a foot in by weight / stiffness at most, one that is let go by twice as much; a
 // start by hand is less exact.
 void check_ground(const Experiment& e, List& out) {
-  constexpr double factor = 3, least = 1e-3;  // [-], [m]
+  constexpr double factor = 3.5, least = 1e-3;  // [-], [m]
   if (!e.robot.ground.present) return;
   const double weight = moving_mass(e.robot) * e.robot.gravity;
   const double allowed = std::max(least, factor * weight / e.robot.ground.normal_stiffness);

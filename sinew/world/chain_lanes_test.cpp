@@ -32,10 +32,13 @@ Setup random_leg(std::mt19937& random) {
   s.robot.trolley.drag = between(random, 0, 4);
   s.robot.trolley.track_length = random() % 3 == 0 ? 0.01 : 10.0;
   s.robot.ground.present = random() % 4 != 0;
-  s.steps.body = std::array{1e-3, 0.7e-3, 1.2e-3}[random() % 3];
+  s.steps.body = std::array{1e-3, 0.7e-3, 2e-3}[random() % 3];
   s.air.polytropic_exponent = between(random, 1.0, 1.4);
   s.supply.pressure = between(random, 5e5, 8e5);
-  for (air::Muscle& m : s.muscles) m.actuator.loss.stick = random() % 5 != 0;
+  for (air::Muscle& m : s.muscles) {
+    m.actuator.loss.stick = random() % 5 != 0;
+    m.exhaust.flow.area = 1e-6;  // narrow for the longest step
+  }
   return s;
 }
 

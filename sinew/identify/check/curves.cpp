@@ -105,8 +105,8 @@ std::vector<RepeatedReading> repeated_readings(const std::vector<StaticPoint>& p
   std::vector<RepeatedReading> out;
   for (std::size_t k = 0; k < order.size();) {
     const StaticPoint& at = points[order[k]];
-    std::size_t first = order[k], last = order[k], n = 0;
-    for (; k < order.size() && is_equal(at, points[order[k]]); ++k, ++n) {
+    std::size_t first = order[k], last = order[k], n = 1;
+    for (++k; k < order.size() && is_equal(at, points[order[k]]); ++k, ++n) {
       first = std::min(first, order[k]);
       last = std::max(last, order[k]);
     }

@@ -92,7 +92,7 @@ TEST(Run, NoRowIsBeforeTheFirstReading) {
           {"log.period=" + period + " ms", "low_level.pwm_ticks=" + ticks,
            "control.high_level_period=20 ms", "start.settle=0 s", "sequence.repeat=1"}));
       const signals::Series& counts = *o.table.find("/sensor/lever_angle/count");
-      for (const double count : counts.columns[0]) ASSERT_GT(count, 1900) << period << ticks;
+      for (const double count : counts.columns[0]) ASSERT_GT(count, 1000) << period << ticks;
       EXPECT_LT(counts.time_ns.front(), 20'000'000) << period << ticks;
     }
 }
