@@ -146,7 +146,7 @@ TEST(Sweep, AnAxisOfExperiments) {
 TEST(Sweep, FailuresAreRows) {
   Sweep s{.experiment = root + "/experiments/walk-test-1.toml",
           .axes = {parse_axis("link.femur.length=8,8.875 in"),
-                   parse_axis("actuator.bpa.loss.viscous=3,5000 N s/m")},
+                   parse_axis("muscle.knee_extensor.bladder_stiffness=300,1e8 N/m")},
           .report = parse_figures("trolley.distance_m")};
   const std::vector<Row> rows = sweep(s, {.threads = 2});
   ASSERT_EQ(rows.size(), 4U);

@@ -75,7 +75,7 @@ TEST_F(Overwrite, AFaultLeavesTheOldRunAndReportsWhereTheNewOneIs) {
   const Writer writer = writers(w).front();
   const Results results = both(w, writer);
   const Ended fault = run(w, {"run", "experiments/walk-test-1.toml", "-o", writer.target, "--force",
-                              "--set", "actuator.bpa.loss.viscous=5000 N s/m"});
+                              "--set", "muscle.knee_extensor.bladder_stiffness=1e8 N/m"});
   EXPECT_EQ(fault.code, 1);
   EXPECT_THAT(fault.output, AllOf(HasSubstr("the run was ended: "),
                                   HasSubstr("out/run: holds what was there before"),

@@ -219,9 +219,9 @@ double BodyMechanism<N, D, M>::sum(const Motion& m) const noexcept {
 template <int N, int D, int M>
 void BodyMechanism<N, D, M>::choose_steps(const Setup& setup) {
   const double body_step = setup.steps.body;
-  const std::vector<MusclesAtJoint> muscles = muscles_at_joints(setup);
+  const std::vector<double> of_muscles = muscle_damping(setup);
   const auto rates = [&](const Motion& m) {
-    return contacts_.fastest_rates(Body<N>(constants_, m), m, robot_, muscles);
+    return contacts_.fastest_rates(Body<N>(constants_, m), m, robot_, of_muscles);
   };
   // A light foot is quick if the ground pushes past its centre of mass. The poses cover the
   // range of angles: each link turns by an irrational number of turns from one to the next (5 + 7 j

@@ -545,11 +545,10 @@ class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N
   // its start.
   double node_step(const Setup& setup) const {
     std::array<double, N> damping = model_.damping, spring = model_.spring;
-    const std::vector<MusclesAtJoint> muscles = muscles_at_joints(setup);
+    const std::vector<double> of_muscles = muscle_damping(setup);
     for (int j = 0; j < N; ++j) {
-      const MusclesAtJoint& at = muscles[static_cast<std::size_t>(j)];
-      damping[j] += model_.stop[j].damping + at.damping;
-      spring[j] += model_.stop[j].stiffness + at.stiffness;
+      damping[j] += model_.stop[j].damping + of_muscles[static_cast<std::size_t>(j)];
+      spring[j] += model_.stop[j].stiffness;
     }
     return stable_step(setup.steps.body,
                        this->contacts_.stiffest_rate(Pose(model_.chain, start_), damping, spring));

@@ -105,11 +105,10 @@ class FrictionContacts {
   std::size_t foot_of(int disc) const { return disc_[static_cast<std::size_t>(disc)].foot; }
   double friction(std::size_t disc) const { return disc_[disc].friction; }  // Coulomb [-]
 
-  // Returns the fastest rates at which the machine is brought to rest in a pose [1/s]. `muscles`:
-  // what they add to each joint.
+  // Returns the fastest rates at which the machine is brought to rest in a pose [1/s].
+  // `of_muscles`: damping that they add to each joint.
   FastestRates fastest_rates(const Body<N>& body, const BodyState<N>& motion,
-                             const robot::Robot& robot,
-                             std::span<const MusclesAtJoint> muscles) const;
+                             const robot::Robot& robot, std::span<const double> of_muscles) const;
   DiscAt<N> disc(const Body<N>& body, const BodyState<N>& motion, int i) const;
 
   // Returns the depth of a disc in the ground; above 0 if they touch [m].
@@ -396,7 +395,7 @@ void FrictionContacts<N, D>::add_foot(const robot::Robot& robot, std::size_t leg
 template <int N, int D>
 FastestRates FrictionContacts<N, D>::fastest_rates(const Body<N>& body, const BodyState<N>& motion,
                                                    const robot::Robot& robot,
-                                                   std::span<const MusclesAtJoint> muscles) const {
+                                                   std::span<const double> of_muscles) const {
   FastestRates fastest;
   const auto per_force = [&](const Coordinates<N>& row) {
     return dot(k_, row, body.response(row));
@@ -407,8 +406,8 @@ FastestRates FrictionContacts<N, D>::fastest_rates(const Body<N>& body, const Bo
   for (std::size_t j = 0; j < k_.links(); ++j) {
     const robot::Joint& joint = robot.joints[j];
     include(per_force(row(static_cast<int>(j))),
-            joint.damping + joint.damper + joint.stop.damping + muscles[j].damping,
-            joint.spring + joint.stop.stiffness + muscles[j].stiffness);
+            joint.damping + joint.damper + joint.stop.damping + of_muscles[j],
+            joint.spring + joint.stop.stiffness);
   }
   if (!k_.held[along_track])
     include(per_force(row(trolley)), robot.trolley.stop_damping, robot.trolley.stop_stiffness);

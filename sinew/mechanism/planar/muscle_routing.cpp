@@ -38,21 +38,18 @@ double CamLaw::area(double angle) const noexcept {
 
 double CamLaw::largest_radius() const noexcept { return *std::ranges::max_element(radius_); }
 
-std::vector<MusclesAtJoint> muscles_at_joints(const Setup& setup) {
-  std::vector<MusclesAtJoint> out(setup.robot.joints.size());
+std::vector<double> muscle_damping(const Setup& setup) {
+  std::vector<double> out(setup.robot.joints.size());
   for (std::size_t i = 0; i < setup.muscles.size(); ++i) {
     const robot::Muscle& m = setup.robot.muscles[i];
     const actuator::Actuator& a = setup.muscles[i].actuator;
     const bool empirical = a.short_end.law == actuator::ShortEnd::Law::empirical;
-    const double damping = (empirical ? actuator::empirical_loss : 1.0) * a.loss.viscous +
-                           std::max(a.long_end.damping, a.short_end.damping);
-    const double stiffness = std::max(a.long_end.stiffness, a.short_end.stiffness);
+    const double damping = (empirical ? actuator::empirical_loss : 1.0) * a.loss.viscous;
     const auto add = [&](const std::string& joint, const robot::Cam& cam) {
       if (joint.empty()) return;
       const auto j = static_cast<std::size_t>(robot::find_joint(setup.robot, joint));
       const double r = CamLaw(cam, setup.robot.joints[j]).largest_radius();
-      out[j].damping += setup.muscles[i].count * damping * r * r;
-      out[j].stiffness += setup.muscles[i].count * stiffness * r * r;
+      out[j] += setup.muscles[i].count * damping * r * r;
     };
     add(m.joint, m.cam);
     add(m.second.joint, m.second.cam);

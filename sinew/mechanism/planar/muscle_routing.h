@@ -144,15 +144,9 @@ void MuscleRouting::at(const double* angle, const double* rate, air::Lanes<M>& l
   }
 }
 
-// Damping and stiffness that the losses and ends of the muscles add to a joint: c r^2 and k r^2 at
-// the largest radius.
-struct MusclesAtJoint {
-  double damping = 0;    // [N m s/rad]
-  double stiffness = 0;  // of their ends [N m/rad]
-};
-// Returns these for every joint of the machine, for the choice of its step. The braid's own
-// stiffness is not in it: with the air in it, it is far below that of the ends.
-std::vector<MusclesAtJoint> muscles_at_joints(const Setup& setup);
+// Returns the damping that the viscous losses of the muscles add to each joint, c r^2 at the
+// largest radius, for the choice of the step [N m s/rad]. Their ends are not in it.
+std::vector<double> muscle_damping(const Setup& setup);
 
 // Loads of the trolley's two rollers, 4.2 and 7.2.
 //

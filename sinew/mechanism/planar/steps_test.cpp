@@ -55,7 +55,7 @@ TEST(Steps, SuitEveryPose) {
     BodyState<3> m = mechanism.start();
     for (int pose = 0; pose < 2000; ++pose) {
       const Body<3> body(mechanism.constants(), m);
-      fastest.include(contacts.fastest_rates(body, m, s.robot, muscles_at_joints(s)));
+      fastest.include(contacts.fastest_rates(body, m, s.robot, muscle_damping(s)));
       for (std::size_t j = 0; j < 3; ++j) m.at[first_link + j] = turn(random);
     }
     EXPECT_LT(step * fastest.ground_damper, Contacts::stable_explicit) << machine;
@@ -106,10 +106,8 @@ class Plank {
                 .normal_damping = damping};
     body_ = body_of<1>(r);
     contacts_.emplace(body_, r);
-    rate_ =
-        contacts_
-            ->fastest_rates(Body<1>(body_, start()), start(), r, std::array<MusclesAtJoint, 1>{})
-            .ground_damper;
+    rate_ = contacts_->fastest_rates(Body<1>(body_, start()), start(), r, std::array{0.0})
+                .ground_damper;
   }
 
   void relax() { contacts_->relax_beyond(0); }

@@ -95,7 +95,7 @@ TEST(Failure, OfAirEndsTheRunInEveryWorld) {
 }
 
 // A muscle whose bladder is too stiff for the step, which is limited by the joints, the ground, and
-// the losses and ends of muscles, but not by their own stiffness.
+// the losses of muscles, but not by their stiffness.
 const std::vector<std::string> runs_away{"muscle.knee_extensor.bladder_stiffness=1e8 N/m",
                                          "log.period=0.5 ms"};
 
