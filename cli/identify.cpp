@@ -252,9 +252,11 @@ void check_outputs(const ResultOptions& options, const run::FileKind& out = para
       config::fail({"--out", 0, 0}, "", config::in_quotes(options.out) + ", the page's name too",
                    "a parameter file, such as mine.toml", "another name, or --no-report");
     run::refuse_to_overwrite(page, options.force, page_file);
+    run::require_folder_of(page);
   }
-  if (!options.out.empty())
-    run::refuse_to_overwrite(options.out, options.force, out, {inputs.begin(), inputs.end()});
+  if (options.out.empty()) return;
+  run::refuse_to_overwrite(options.out, options.force, out, {inputs.begin(), inputs.end()});
+  run::require_folder_of(options.out);
 }
 
 // Writes the files of further muscles next to that of the first one.
@@ -275,9 +277,9 @@ template <class Settings>
 void check_second_file(const Options<Settings>& options) {
   const std::string& file = options.result.second_file;
   if (file.empty()) return;
+  run::require_folder_of(file);
   if (std::is_same_v<Settings, identify::JointSettings>)
     return run::refuse_to_overwrite(file, options.result.force, parameter_file);
-  run::require_folder_of(file);
   identify::refuse_fitted(sources_of(options.data), "predict_dat", file);
   run::refuse_to_overwrite(file, options.result.force, timing_file);
 }
