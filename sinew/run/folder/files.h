@@ -16,12 +16,13 @@ namespace sinew::run {
 // Kind of file that a command writes. `force` replaces files of this kind only: files of another
 // kind were made by the user or by another program.
 struct FileKind {
+  // Place of the mark in the file.
   enum class At { anywhere, start, first_line, end_of_first_line };
 
   std::string_view what, name;  // "page of `sinew identify`", "such a page"
   std::string_view mark;        // text that each such file has; empty: any text. Blanks of the
                                 // file are skipped where the mark has none
-  At at = At::anywhere;         // place of the mark
+  At at = At::anywhere;
   std::string_view otherwise = "another one";  // what to do if the file is of another kind
 };
 
