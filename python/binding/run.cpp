@@ -27,7 +27,7 @@ void run_here(const HeldExperiment& e, const run::RunRequest& request, std::atom
               Recording& out) {
   run::refuse_unrunnable(e.read, false);
   out.resolved = config::parse_text(experiment::resolved(e.read, SINEW_VERSION), "resolved.toml");
-  (void)analysis::read_machine(out.resolved);  // what cannot be summarised is not run
+  (void)analysis::read_machine(out.resolved);  // refuses what cannot be summarised
   run::Place place(request.port, e.read);
   place.prepare(request.clear_fault, &stop);
   out.board = place.who();

@@ -321,8 +321,8 @@ double BodiesOfAir<Most>::steepest(const gas::FlowConstants& flow) const {
 
 // Notes the slopes of the on/off valves of muscle i if one of them is wide: if the muscle at
 // `long_end.length` settles too quickly for RK4 in steps of the body where its pressure is still
-// 0.6 % from that behind the valve. A narrower valve is too quick only where the rest is less than
-// that. A hose without volume is in series with the valve.
+// 0.6 % from that behind the valve. A narrower valve is too quick only nearer to that pressure. A
+// hose without volume is in series with the valve.
 template <int Most>
 void BodiesOfAir<Most>::find_wide_valves(int i, double step) {
   constexpr double rest = 0.006;  // difference of the pressures, over the larger one

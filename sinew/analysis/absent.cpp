@@ -35,7 +35,7 @@ Names names_of(const Parts& parts) {
   return out;
 }
 
-// Returns whether the muscle takes a set point, so that it has no duties.
+// Returns whether the muscle takes a set point instead of duties.
 bool has_regulator(const Machine& machine, const robot::Muscle& muscle) {
   return valve_of(machine, muscle.inlet).kind == gas::Valve::Kind::regulator;
 }

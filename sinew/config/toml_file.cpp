@@ -104,7 +104,7 @@ std::size_t end_of_string(std::string_view text, std::size_t from) {
 
 // Throws Error where a key has too many parts, or lists and tables are too deep within each other.
 void refuse_deep_nesting(std::string_view text, const std::string& name) {
-  std::vector<std::size_t> dots{0};  // of the key in each open bracket
+  std::vector<std::size_t> dots{0};  // number in the key of each open bracket
   std::size_t depth = 0;             // sum of the dots, and the number of open brackets
   for (std::size_t at = 0; at < text.size();) {
     const char c = text[at];

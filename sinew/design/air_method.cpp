@@ -67,7 +67,7 @@ Supply supply_of(const AirSettings& s, const AirUses& uses) {
              .compressor_mass = values.given(s.compressor_mass).value_or(Value::unknown)};
   for (const std::string& text : s.compressor) {
     const gas::CompressorPoint point = point_of(text, atmosphere);
-    constexpr double rounding = 1;  // of a pressure in another unit [Pa]
+    constexpr double rounding = 1;  // error of a pressure in another unit [Pa]
     const auto is_equal = [&](const gas::CompressorPoint& other) {
       return std::abs(other.gauge_pressure - point.gauge_pressure) < rounding;
     };

@@ -17,7 +17,7 @@
 namespace sinew::recording {
 namespace {
 
-constexpr double pressure_noise = 2e3;  // of a sensor at a vacuum [Pa]
+constexpr double pressure_noise = 2e3;  // largest noise of a sensor at a vacuum [Pa]
 
 // --- matching of columns to channels, and conversion of their numbers ---
 
@@ -280,8 +280,8 @@ class Matcher {
     }
   }
 
-  // Requires that no column of absolute pressures is below zero, beyond the noise of a sensor. One
-  // of gauge pressures is checked by refuse_impossible().
+  // Requires that no column of absolute pressures is below zero, beyond the noise of a sensor.
+  // Gauge pressures are checked by refuse_impossible().
   void check_pressures() {
     for (const Matched& m : out_.columns) {
       if (m.target.topic >= out_.topics.size() || wanted(m.target).unit != "Pa abs") continue;
@@ -611,7 +611,7 @@ class Assembler {
     if (topic.name.starts_with("/recorded/")) return;
     const bool is_pressure = topic.fields[of.target.field].unit == "Pa";
     const double vacuum = is_gauge_channel(topic.name) ? -joining_.atmosphere : 0.0;
-    constexpr double of_duty = 1e-6;  // of a duty in another unit [-]
+    constexpr double of_duty = 1e-6;  // error of a duty in another unit [-]
     const bool below_vacuum = is_pressure && value < vacuum - pressure_noise;
     const bool is_no_duty =
         topic.name.ends_with("_duty") && (value < -of_duty || value > 1 + of_duty);

@@ -26,7 +26,7 @@ struct Joining {
   bool at_end = false;                        // true: concatenated in time; false: aligned in time
   std::map<std::string, std::string> shifts;  // file -> "0.12 s", added to its times
   double atmosphere = units::atmosphere;      // between gauge and absolute pressures [Pa]
-  double pulse_period = 0.01;                 // of the machine's valves [s]
+  double pulse_period = 0.01;                 // period of the valves' pulses [s]
 };
 
 // Summarizes the import of one file.

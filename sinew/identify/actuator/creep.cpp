@@ -45,7 +45,7 @@ struct Held {
   std::vector<double> pressure;   // without its noise while it rests
   std::vector<std::size_t> rows;  // at which the pressure rests
   double top = 0, pull = 0;       // largest pressure and force [Pa], [N]
-  double noise = 0;               // that was taken off the pressure [Pa]
+  double noise = 0;               // subtracted from the pressure [Pa]
 
   // Returns the index of the time stretch that contains a row.
   int stretch(std::size_t row) const {

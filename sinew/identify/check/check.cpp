@@ -314,7 +314,7 @@ Check pressure_unit(const Reach& r) {
 
 // Start of the force at the longest mount.
 struct ForceStart {
-  double length = 0;          // of that mount [m]
+  double length = 0;          // length of that mount [m]
   double threshold = -1e300;  // gauge pressure at which the straight part starts; very low: unknown
   double first = 0;           // force at its lowest pressure [N]
 };
@@ -330,9 +330,9 @@ ForceStart start_of(const StaticData& data) {
   return out;
 }
 
-// Checks for absolute pressures: readings, and the force, then begin at the atmosphere. A force
-// that is already large at the lowest pressure, or a mount that is shorter than at rest, does not
-// show where the force of a muscle at rest begins.
+// Checks for absolute pressures: readings, and the force, then begin at the atmosphere. Forces that
+// are already large at the lowest pressure, or a mount that is shorter than at rest, do not show
+// where the force of a muscle at rest begins.
 Check gauge_or_absolute(const StaticData& data, const Reach& r) {
   constexpr auto name = "gauge or absolute";
   const ForceStart start = start_of(data);

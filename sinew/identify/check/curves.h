@@ -24,8 +24,8 @@ struct RepeatedReading {
   double first = 0, last = 0;  // [N]
 };
 
-// Returns the readings that are repeated, where the branch is known; points are in the order in
-// which they were read. Equality is that of curves_of(), and equal lengths are within 0.02 %.
+// Returns the readings that are repeated, where the branch is known; points are in the order of
+// reading. Equality is that of curves_of(), and equal lengths are within 0.02 %.
 std::vector<RepeatedReading> repeated_readings(const std::vector<StaticPoint>& points);
 
 // Returns the interpolated force of a curve; empty outside its pressures.

@@ -61,7 +61,7 @@ TEST(RunFit, FindsADeadTimeSeveralTicksFromTheStart) {
   }
 }
 
-// Where the numbers that are fitted cannot explain the run, the result is still no worse than the
+// If the numbers that are fitted cannot explain the run, the result is still no worse than the
 // start, and residuals far above the noise give no interval.
 TEST(RunFit, IsNeverWorseThanItsStartAndGivesNoIntervalFarAboveTheNoise) {
   const std::vector<std::string> fit = {"valve.inlet.opening_delay", "valve.exhaust.closing_delay"};

@@ -73,8 +73,8 @@ TEST(Pair, ADelayBeyondTheLikelyOnesIsFoundOrFrozen) {
               testing::Contains("the value of delay, at the bound of its range"));
 }
 
-// A viscous loss resembles an effort that leads the position, k x(t + c/k). It is told apart where
-// the delay cannot be negative; a constraint may still allow it.
+// A viscous loss resembles an effort that leads the position, k x(t + c/k). It is distinguished
+// where the delay cannot be negative; a constraint may still allow it.
 TEST(Pair, AViscousLossIsNotTakenForANegativeDelay) {
   const TestPair truth{.mass = 0, .friction = 0};
   const std::vector<PairRecord> records{test_record(truth, 13, false, 8)};

@@ -56,8 +56,8 @@ struct Bracket {
   bool closed() const { return seen_low && seen_high; }
 };
 
-// Returns the bracket of the opening delay, or of the closing delay: a pulse, or a gap between two,
-// that is shorter is lost.
+// Returns the bracket of the opening delay, or of the closing delay: a shorter pulse, or a shorter
+// gap between two, is lost.
 Bracket bracket_of(const Map& m, bool opening) {
   Bracket b;
   for (std::size_t i = 0; i < m.duty.size(); ++i) {

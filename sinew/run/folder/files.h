@@ -23,7 +23,7 @@ struct FileKind {
   std::string_view mark;        // text that each such file has; empty: any text. Blanks of the
                                 // file are skipped where the mark has none
   At at = At::anywhere;
-  std::string_view otherwise = "another one";  // what to do if the file is of another kind
+  std::string_view otherwise = "another one";  // advice if the file is of another kind
 };
 
 // Kind of an FMU, which the program and the Python package write.

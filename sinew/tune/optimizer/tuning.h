@@ -56,8 +56,8 @@ struct Goals {
   enum class Over { mean, worst };
 
   std::vector<Goal> goals;    // at least one
-  std::vector<Limit> limits;  // that the runs must hold
-  Over over = Over::mean;     // how the runs of a candidate are combined
+  std::vector<Limit> limits;  // held by the runs
+  Over over = Over::mean;     // combines the runs of a candidate
   double hold = 1;  // share of the runs for which all limits must hold, above 0, at most 1
 };
 
