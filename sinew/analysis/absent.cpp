@@ -55,8 +55,6 @@ std::optional<Mistake> without_duties(std::string_view leaf, const Machine& mach
                  "a figure that the runs have", ""};
 }
 
-std::optional<Mistake> absent_in(std::string_view key, const Machine& machine);
-
 // Checks "<name>.<rest>" of one of the machine's groups, such as joints.
 std::optional<Mistake> absent_name(std::string_view group, const Names& names,
                                    std::string_view name) {
