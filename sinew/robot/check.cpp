@@ -306,13 +306,15 @@ void check_pairs(const Robot& robot, List& out) {
   }
 }
 
+// Checks bits of the cylinder's valves, whether they are in a loop or only listed.
 template <class Take>
 void check_cylinder_bits(const Robot& robot, const Take& take) {
-  if (!has_cylinder_joint(robot)) return;
+  if (!robot.cylinder.present) return;
   for (const auto& [word, chamber] :
        {std::pair{"up", &robot.cylinder.up}, std::pair{"down", &robot.cylinder.down}}) {
-    take(chamber->inlet_bit, std::string("cylinder.") + word + ".inlet.bit");
-    take(chamber->exhaust_bit, std::string("cylinder.") + word + ".exhaust.bit");
+    const std::string key = std::string("cylinder.") + word;
+    if (!chamber->inlet.empty()) take(chamber->inlet_bit, key + ".inlet.bit");
+    if (!chamber->exhaust.empty()) take(chamber->exhaust_bit, key + ".exhaust.bit");
   }
 }
 
@@ -336,7 +338,7 @@ void check_bits(const Robot& robot, List& out) {
       if (!muscle.exhaust.empty())
         take(muscle.exhaust_bit, "muscle." + muscle.name + ".exhaust.bit");
     }
-    if (board.cylinder) check_cylinder_bits(robot, take);
+    if (board.cylinder || boards.size() == 1) check_cylinder_bits(robot, take);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "sinew/robot/robot.fields.h"
@@ -51,6 +52,21 @@ TEST(Contradictions, PairsAndTheirSensors) {
   EXPECT_EQ(keys_after([](Robot& r) { r.sensors.pop_back(); }), (Keys{"muscle.knee_extensor"}));
   EXPECT_EQ(keys_after([](Robot& r) { r.muscles[2].exhaust_bit = r.muscles[0].inlet_bit; }),
             (Keys{"muscle.knee_flexor.exhaust.bit"}));
+}
+
+// Valves of a cylinder have bits of their own even where no loop moves it.
+TEST(Contradictions, CylindersHaveBitsOfTheirOwn) {
+  for (const auto mode : {Cylinder::Mode::valves, Cylinder::Mode::locked})
+    for (const int bit : {4, 0}) {
+      const Keys keys = keys_after([&](Robot& r) {
+        r.cylinder = {.present = true, .mode = mode};
+        r.cylinder.up.inlet = r.cylinder.down.inlet = "inlet";
+        r.cylinder.up.exhaust = r.cylinder.down.exhaust = "exhaust";
+        r.cylinder.down.inlet_bit = 5, r.cylinder.down.exhaust_bit = 13;
+        r.cylinder.up.inlet_bit = bit;  // 0 is the hip flexor's
+      });
+      EXPECT_EQ(std::ranges::count(keys, "cylinder.up.inlet.bit"), bit == 0);
+    }
 }
 
 // One muscle is enough, no muscle is not; nor are two on one side, where a muscle over two joints
