@@ -54,11 +54,16 @@ class Program(unittest.TestCase):
         out = os.path.join(WORK, "kept.fmu")
         with open(out, "w", encoding="utf-8") as file:
             file.write("mine")
-        refused = program("fmu", "export", ACTUATOR, "-o", out)
-        self.assertEqual(refused.returncode, 1)
-        with open(out, encoding="utf-8") as file:
-            self.assertEqual(file.read(), "mine")
-        self.assertEqual(program("fmu", "export", ACTUATOR, "-o", out, "--force").returncode, 0)
+        export = ("fmu", "export", ACTUATOR, "-o", out)
+        for words in ("", "--force"):  # a file that is no FMU stays
+            refused = program(*export, *words.split())
+            self.assertEqual(refused.returncode, 1)
+            with open(out, encoding="utf-8") as file:
+                self.assertEqual(file.read(), "mine")
+        os.remove(out)
+        self.assertEqual(program(*export).returncode, 0)
+        self.assertEqual(program(*export).returncode, 1)
+        self.assertEqual(program(*export, "--force").returncode, 0)
         for target in (ACTUATOR, WORK, os.path.join(WORK, "no", "folder.fmu")):
             refused = program("fmu", "export", ACTUATOR, "-o", target, "--force")
             self.assertEqual(refused.returncode, 1, refused.stdout)

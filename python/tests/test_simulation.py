@@ -127,12 +127,12 @@ class Simulation(unittest.TestCase):
         self.assertEqual(leg.time, ended)
 
     def test_one_that_fails_reports_the_cause(self) -> None:
-        leg = sinew.Simulation(WALK, {"actuator.bpa.loss.viscous": 5000.0})
+        leg = sinew.Simulation(WALK, {"muscle.knee_extensor.bladder_stiffness": 1e8})
         with self.assertRaises(sinew.RunError) as raised:
             leg.advance(20.0)
         self.assertIn("plant_steps.body", str(raised.exception))
         with self.assertRaises(sinew.RunError):
-            sinew.run(WALK, {"actuator.bpa.loss.viscous": 5000.0})
+            sinew.run(WALK, {"muscle.knee_extensor.bladder_stiffness": 1e8})
 
 
 class Threads(unittest.TestCase):

@@ -70,7 +70,7 @@ step_web() {
   rm "$runs"/long*/log.mcap  # large and no longer needed
   mkdir "$runs/study" && for name in walk/64 other/16; do
     "$sinew" sweep experiments/walk-test-1.toml --points "${name#*/}" --range "joint.hip.angle_gain=0.02:0.08 %/count log" \
-      --range "link.femur.length=10:15 in" --vary "low_level.duty_rounding=none,truncate sum" --results "$runs/study/${name%/*}.db" \
+      --range "link.femur.length=8.6:9.1 in" --vary "low_level.duty_rounding=none,truncate sum" --results "$runs/study/${name%/*}.db" \
       --report "trolley.mean_speed_m_per_s [in/s], joints.hip.tracking_rms_rad [deg], air_used_kg [g]" \
       -o "$runs/study/${name%/*}.csv" --quiet || return 1
   done
