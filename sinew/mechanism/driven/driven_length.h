@@ -58,8 +58,7 @@ class DrivenLength {
   struct Motion {
     double length = 0, rate = 0;  // [m], [m/s]
   };
-  // The length has no inertia, forces or friction.
-  struct Nothing {};
+  struct Nothing {};  // no inertia, forces or friction
   using Acceleration = Nothing;
   using Arms = Nothing;
   using Pose = Nothing;
@@ -82,13 +81,12 @@ class DrivenLength {
   auto start_memory(const auto& air, const Setup& s, const Ends& ends) const {
     return air.memory_at_rest(s.pressure, ends.length);
   }
-  // corner_after() returns the next point of the table after t [s]; begin() sets the prescribed
-  // motion from a node on.
+  // Returns the table's next point after t [s]; begin() sets the prescribed motion from a node on.
   double corner_after(double t) const noexcept { return length_.corner(t); }
   void begin(double t, Motion& m) const noexcept {
     if (length_.moves_until(t)) m = {length_.at(t), length_.piece(t).slope};
   }
-  // sum() is finite if the motion is; route() writes the muscle's ends; move() the motion h [s]
+  // sum() is finite if the motion is; route() writes the muscle's ends, move() a motion h [s]
   // later.
   double sum(const Motion& m) const noexcept { return m.length; }
   void route(double, const Motion& m, Ends& ends, Arms&) const noexcept {
