@@ -65,8 +65,7 @@ class DrivenLength {
   using Load = Nothing;
   using Forces = Nothing;
 
-  // Takes a setup. The functions return the constants, the motion at the start, the time between
-  // nodes [s], and the air with its state and memory at the start.
+  // Return the constants, the motion at the start, the time between nodes [s], and the first air.
   explicit DrivenLength(const Setup& setup) : length_(setup.length) {}
   const signals::Schedule& constants() const noexcept { return length_; }
   Motion start() const noexcept { return {length_.at(0), length_.piece(0).slope}; }
