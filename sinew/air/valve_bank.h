@@ -122,7 +122,7 @@ class ValveBank {
   void move(double t, const Difference& difference, Valves& valves) const noexcept;
 
   // Return the flows through a pair of valves (`inlet` and the next one) that ends at y; the flows
-  // with their slopes; and whether both valves are shut.
+  // with their slopes; and whether both valves are shut and stay so until the next node.
   Flows flows_through(int inlet, const FlowInputs& now, double y) const noexcept;
   SlopedFlows sloped_flows_through(int inlet, const FlowInputs& now, double since_node, double y,
                                    bool sloped) const noexcept;
@@ -145,6 +145,7 @@ class ValveBank {
   double fraction(std::size_t v, double t, const Valves& valves) const noexcept {
     return shutter_fraction(taps_[v].shutter.opposite, v, t, valves);
   }
+  double rate_of_share(int valve, double t, const Valves& valves) const noexcept;
   void refresh(double t, Valves& valves) const noexcept;
   template <class Difference>
   void change(const AirFault& fault, bool begins, double t, const Difference& difference,
@@ -240,6 +241,16 @@ double ValveBank<Most>::open_share(int valve, double t, const Valves& valves) co
   const auto v = static_cast<std::size_t>(valve);
   if (!ramping_ || regulates(taps_[v].valve)) return valves[v].share;
   return air::open_share(faults_.seat(valve, valves.faults), fraction(v, t, valves));
+}
+
+// Returns the rate of the open share from t on, while the shutter moves gradually [1/s].
+template <int Most>
+double ValveBank<Most>::rate_of_share(int valve, double t, const Valves& valves) const noexcept {
+  const auto v = static_cast<std::size_t>(valve);
+  if (!ramping_ || regulates(taps_[v].valve)) return 0;
+  const double rate =
+      taps_[v].shutter.opposite ? -valves[v - 1].shutter.rate(t) : valves[v].shutter.rate(t);
+  return (1.0 - faults_.seat(valve, valves.faults)) * rate;
 }
 
 // A released shutter starts as after an edge at t: with its delay, if its coil can lift it.
@@ -346,8 +357,10 @@ double ValveBank<Most>::slope_of_faults(int pair, const ActingFaults& faults) co
 template <int Most>
 bool ValveBank<Most>::shut(int inlet, const FlowInputs& now) const noexcept {
   const Valves& valves = now.valves;
-  return !valves.leaking && !(open_share(inlet, now.t, valves) > 0) &&
-         !(open_share(inlet + 1, now.t, valves) > 0);
+  const auto stays_shut = [&](int valve) {
+    return !(open_share(valve, now.t, valves) > 0) && rate_of_share(valve, now.t, valves) == 0;
+  };
+  return !valves.leaking && stays_shut(inlet) && stays_shut(inlet + 1);
 }
 
 template <int Most>
@@ -375,7 +388,7 @@ auto ValveBank<Most>::flows_through(int inlet, const FlowInputs& now, double y) 
   return flows;
 }
 
-// Regulators follow their lag since the node.
+// Regulators follow their lag since the node; shutters move linearly between two nodes.
 template <int Most>
 auto ValveBank<Most>::sloped_flows_through(int inlet, const FlowInputs& now, double since_node,
                                            double y, bool sloped) const noexcept -> SlopedFlows {
@@ -407,8 +420,18 @@ auto ValveBank<Most>::sloped_flows_through(int inlet, const FlowInputs& now, dou
     o.out_by += out_share * out.by_a;
   };
   const double in = open_share(inlet, now.t, valves), out = open_share(inlet + 1, now.t, valves);
-  if (in > 0) add(quick::flow(sloped, tap.flow, now.y_supply, y), in, {}, 0);
-  if (out > 0) add({}, 0, quick::flow(sloped, taps_[v + 1].flow, y, 1.0), out);
+  const double in_rate = sloped ? rate_of_share(inlet, now.t, valves) : 0.0,
+               out_rate = sloped ? rate_of_share(inlet + 1, now.t, valves) : 0.0;
+  if (in > 0 || in_rate != 0) {
+    const gas::SlopedFlow whole = quick::flow(sloped, tap.flow, now.y_supply, y);
+    add(whole, in, {}, 0);
+    o.in_by_time = in_rate * whole.flow;
+  }
+  if (out > 0 || out_rate != 0) {
+    const gas::SlopedFlow whole = quick::flow(sloped, taps_[v + 1].flow, y, 1.0);
+    add({}, 0, whole, out);
+    o.out_by_time = out_rate * whole.flow;
+  }
   if (valves.leaking)
     faults_.each(valves.faults, [&](std::size_t k, const AirFault& f) {
       if (f.what != AirFault::What::seat_leak || f.of / 2 != inlet / 2) return;

@@ -95,6 +95,8 @@ struct Shutter {
   // It is linear between two nodes; at a node it is the left limit before advance() and the right
   // limit after.
   double fraction(double t) const noexcept;
+  // Returns its rate from t on, while the shutter moves gradually [1/s].
+  double rate(double t) const noexcept { return piece_.rate(t); }
 
   // Holds the shutter at `share` from t on: it follows no edge, and pending changes are discarded.
   void jam(double t, double share) noexcept;
@@ -127,6 +129,9 @@ struct Shutter {
       if (!(duration > 0)) return to;
       const double share = (t - start) / duration;
       return from + (to - from) * (share < 0 ? 0 : share > 1 ? 1 : share);
+    }
+    double rate(double t) const noexcept {
+      return t >= start && t < start + duration ? (to - from) / duration : 0.0;
     }
   };
   struct Change {

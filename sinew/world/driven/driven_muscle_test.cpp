@@ -95,6 +95,40 @@ TEST(DrivenMuscle, APulseOfJustTheOpeningDelayPassesNoAir) {
   EXPECT_GT(driven.account().in, 1e-8);
 }
 
+// Choked air passes a ramp as if the valve were open for half of it, whether it is integrated with
+// the machine or ahead of it: through a hose that holds air, or beside a wide exhaust.
+TEST(DrivenMuscle, ChokedAirOfRampsIsThatOfTheirMeanShare) {
+  constexpr int pulses = 20, on = 10, off = 20;
+  struct Case {
+    double hose, exhaust;  // volume [m^3], area [m^2]
+  };
+  for (const auto& [hose, exhaust] : {Case{0, 2e-6}, Case{2e-5, 2e-6}, Case{0, 5e-3}})
+    for (const auto& [opening, closing] :
+         {std::pair{1e-3, 0.0}, {1.5e-3, 0.0}, {0.0, 4e-3}, {2.3e-3, 3.1e-3}})
+      for (const double step : {1e-3, 2e-4}) {
+        Muscle m = bundle(0);
+        m.external_volume = 5e-3;
+        if (hose > 0) m.hose = iso_hose(1e-7, hose);
+        m.inlet.profile = gas::Valve::Profile::ramp;
+        m.inlet.opening_ramp = opening;
+        m.inlet.closing_ramp = closing;
+        m.inlet.opening_delay = m.inlet.closing_delay = 0;
+        m.exhaust.flow.area = exhaust;
+        const gas::Air air;
+        const gas::Supply supply;
+        DrivenMuscle driven(m, air, supply, swinging(0));
+        for (int k = 0; k < pulses * (on + off); ++k) {
+          driven.inlet(k % (on + off) < on);
+          for (int part = 0; part < std::lround(1e-3 / step); ++part)
+            driven.advance(step, swinging(0));
+        }
+        const double open = pulses * (1e-3 * on - 0.5 * opening + 0.5 * closing);
+        const double flow = gas::mass_flow(m.inlet.flow, air, supply.pressure, air.atmosphere);
+        EXPECT_NEAR(driven.account().in / (flow * open), 1, 1e-4)
+            << hose << " " << exhaust << " " << opening << " " << closing << " " << step;
+      }
+}
+
 // A regulator's set point is reached and held.
 TEST(DrivenMuscle, FollowsASetPoint) {
   Muscle m = bundle(0);
