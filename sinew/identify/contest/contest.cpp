@@ -140,6 +140,34 @@ Fit fit_of(const Candidate& candidate, const Trial& trial, double full_scale) {
 
 }  // namespace
 
+// The intervals are computed slightly inside, by a solver with no steps.
+void widen_at_bounds(const FitProblem& problem, Solution& s, double inside) {
+  FitProblem moved = problem;
+  moved.options.most_steps = 0;
+  bool any = false;
+  for (std::size_t i = 0; i < s.values.size(); ++i) {
+    Parameter& p = moved.parameters[i];
+    const double margin = std::min(std::max(2 * problem.options.difference, inside) * p.scale,
+                                   0.25 * (p.high - p.low));
+    p.start = std::clamp(s.values[i], p.low + margin, p.high - margin);
+    any = any || s.estimates[i].at_bound || (inside > 0 && p.start != s.values[i]);
+  }
+  if (!any) return;
+  const Solution free = least_squares(moved);
+  const double change = s.rms > 0 && free.rms > 0 ? s.rms / free.rms : 1;
+  for (std::size_t i = 0; i < s.values.size(); ++i) {
+    Estimate& e = s.estimates[i];
+    if (e.at_bound || !e.free) continue;
+    const double half = 0.5 * change * (free.estimates[i].high - free.estimates[i].low);
+    if (!(half > e.high - e.value)) continue;
+    e.standard_error = change * free.estimates[i].standard_error;
+    e.low = e.value - half;
+    e.high = e.value + half;
+    const double size = std::max(std::abs(e.value), moved.parameters[i].scale);
+    e.identifiable = half <= problem.options.widest_interval * size;
+  }
+}
+
 std::vector<Split> each_part_held_out(std::span<const int> part) {
   std::vector<Split> out;
   const int parts = part.empty() ? 0 : 1 + *std::ranges::max_element(part);

@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::size_t middle = 2;  // index of the factor 1
 
-// A value smaller than this share of its scale is near zero.
+// A value smaller than this share of its scale is near zero, if its range contains zero.
 constexpr double smallest_share = 0.05;
 
 bool is_near_zero(const Parameter& p, double value) {
-  return std::abs(value) < smallest_share * p.scale;
+  return p.low <= 0 && p.high >= 0 && std::abs(value) < smallest_share * p.scale;
 }
 
 // A parameter's value moved by a factor, within its bounds, and whether it reaches a quarter of the
@@ -102,7 +102,6 @@ std::vector<std::optional<Profile>> profiles_of(const FitProblem& problem,
           moved(problem.parameters[i], solution.values[i], Profile::factors[at]);
       if (!is_far) {
         out[i]->error[at] = std::nan("");
-        ends[k] = cannot_move;
         continue;
       }
       ends[k] = loss_with(problem, i, to, limit, values, held);

@@ -229,33 +229,6 @@ double conductance_at(const Curve& c, const gas::Air& air) {
   return std::abs(c.rate) / (air.gas_constant * air.temperature * flow);
 }
 
-// Computes intervals of a solution with values at their bounds as if those were slightly
-// inside, from a solver with no steps.
-void widen(const FitProblem& problem, Solution& s) {
-  if (std::ranges::none_of(s.estimates, &Estimate::at_bound)) return;
-  std::vector<Parameter> inside = problem.parameters;
-  SolverOptions options = problem.options;
-  for (std::size_t i = 0; i < inside.size(); ++i) {
-    Parameter& p = inside[i];
-    const double margin = std::min(2 * options.difference * p.scale, 0.25 * (p.high - p.low));
-    p.start = std::clamp(s.values[i], p.low + margin, p.high - margin);
-  }
-  options.most_steps = 0;
-  const Solution free = least_squares(problem.residuals, problem.count, inside, options);
-  const double change = s.rms > 0 && free.rms > 0 ? s.rms / free.rms : 1;
-  for (std::size_t i = 0; i < inside.size(); ++i) {
-    Estimate& e = s.estimates[i];
-    if (e.at_bound) continue;
-    const double half = 0.5 * change * (free.estimates[i].high - free.estimates[i].low);
-    if (!(half > e.high - e.value)) continue;
-    e.standard_error = change * free.estimates[i].standard_error;
-    e.low = e.value - half;
-    e.high = e.value + half;
-    const double size = std::max(std::abs(e.value), inside[i].scale);
-    e.identifiable = half <= options.widest_interval * size;
-  }
-}
-
 // Returns starts spread over the possible values, as there may be several minima; empty: one is
 // enough. Before a narrow hose a small share of the volume fills fast, and C/V is less than the
 // first rise suggests.
@@ -381,7 +354,7 @@ Candidate fill_candidate(const FillModel& model, const Curve& c, const ValveOpti
     return predict_fill(model, c, options, free, p, values);
   };
   out.finish = [](const FitProblem& problem, std::span<const Solution>, Solution& s) {
-    widen(problem, s);
+    widen_at_bounds(problem, s);
     refuse_undetermined(s);
   };
   return out;
