@@ -9,7 +9,8 @@
 // F (1 + sum chi_i (1 - exp(-t/t_i))) after a step of the pressure. The law delays the pressure,
 // not the tension: a muscle with delayed stretch would return more energy than it received. At
 // constant pressure, at rest, the tension is a function of length alone and loops of length are
-// closed.
+// closed. The pressure of sealed air follows the length: its delay returns energy, most to swings
+// of the period 2 pi t_i.
 //
 // Not in the thesis. Bounded by the past pressures; stable in steps up to 2.5 t_i.
 #pragma once

@@ -142,7 +142,7 @@ class BodiesOfAir : public ValveBank<Most> {
   double longest_step(const Ends& ends, const Valves& valves) const noexcept;
 
   // Returns the longest stable step of all that is never integrated ahead of the body: warm walls,
-  // lags, creep, and leaks behind a hose that holds no air [s].
+  // lags, creep, leaks behind a hose that holds no air, and a tank that open valves empty [s].
   double longest_step_of_rest(const Ends& ends, const Valves& valves) const noexcept;
 
   // Returns the longest step in which the air of the cylinder's chambers changes little [s]: its
@@ -228,6 +228,7 @@ class BodiesOfAir : public ValveBank<Most> {
   std::vector<int> lagging_;       // valves of the regulators whose outlet pressure is a state
   std::vector<int> imposed_;       // indices of the other states that impose_pressure() sets
   int tank_ = none;
+  std::vector<double> tank_rates_;  // of each pair's inlet, with a tank [1/s]
   bool active_when_shut_ = false;
   int cut_ = none;           // index of the state: mass from a line that is cut from its tank
   double spring_ = 0;        // n R T: a chamber of volume V behind a slope G settles at n R T G/V
@@ -242,6 +243,8 @@ class BodiesOfAir : public ValveBank<Most> {
   void add_muscle(const Muscle& muscle);
   void add_memory(int i);
   void add_cylinder();
+  void add_tank();
+  double rate_of_tank(const Valves& valves) const noexcept;
   void classify();
   void limit_step();
   double fastest_slope(int inlet) const;
@@ -281,10 +284,12 @@ BodiesOfAir<Most>::BodiesOfAir(std::span<const Muscle> muscles, const gas::Air& 
       lagging_.push_back(static_cast<int>(&tap - taps_.data()));
       tap.outlet = others_++;
     }
-  const double exponent = air_.wall_time > 0 ? gas::heat_capacity_ratio : air_.polytropic_exponent;
-  spring_ = exponent * air_.gas_constant * air_.temperature;
+  // A filling from a vacuum makes air gamma times as hot as the wall.
+  constexpr double of_hot_air = gas::heat_capacity_ratio * gas::heat_capacity_ratio;
+  spring_ = (air_.wall_time > 0 ? of_hot_air : air_.polytropic_exponent) * air_.gas_constant *
+            air_.temperature;
   for (int i = 0; i < size_; ++i) find_wide_valves(i, step);
-  if (supply_.kind == gas::Supply::Kind::tank) tank_ = others_++;
+  if (supply_.kind == gas::Supply::Kind::tank) add_tank();
   for (int i = 0; i < size_; ++i) add_memory(i);
   const auto fails = [](const AirFault& f) { return f.what == AirFault::What::supply; };
   if (tank_ != none && std::ranges::any_of(faults_.all(), fails)) cut_ = others_++;
@@ -321,8 +326,9 @@ double BodiesOfAir<Most>::steepest(const gas::FlowConstants& flow) const {
 
 // Notes the slopes of the on/off valves of muscle i if one of them is wide: if the muscle at
 // `long_end.length` settles too quickly for RK4 in steps of the body where its pressure is still
-// 0.6 % from that behind the valve. A narrower valve is too quick only nearer to that pressure. A
-// hose without volume is in series with the valve.
+// 0.6 % from that behind the valve. A narrower valve is too quick only nearer to that pressure, and
+// then swings about it without effect; but with warm walls the air that swings exchanges heat with
+// the supply, so that no valve may be too quick. A hose without volume is in series with the valve.
 template <int Most>
 void BodiesOfAir<Most>::find_wide_valves(int i, double step) {
   constexpr double rest = 0.006;  // difference of the pressures, over the larger one
@@ -342,11 +348,30 @@ void BodiesOfAir<Most>::find_wide_valves(int i, double step) {
       through *= hose / std::hypot(through, hose);
     }
     rates[v] = spring_ * slope;
-    wide = wide || spring_ * through * step > quick::from_rate * least * rest * air_.atmosphere;
+    wide = wide || spring_ * through * step > quick::from_rate * least * rest * air_.atmosphere ||
+           (air_.wall_time > 0 && rates[v] * step > stable_decay * least);
   }
   if (!wide) return;
   l.by_valve = rates;
   l.has_options = settles_ = true;
+}
+
+// Allocates the tank's state, and notes the rates at which open inlets settle it.
+template <int Most>
+void BodiesOfAir<Most>::add_tank() {
+  tank_ = others_++;
+  const double spring = air_.gas_constant * air_.temperature / supply_.volume;
+  for (std::size_t inlet = 0; inlet < taps_.size(); inlet += 2)
+    tank_rates_.push_back(spring * steepest(taps_[inlet].flow));
+}
+
+// Returns the rate at which the open inlets settle the tank [1/s].
+template <int Most>
+double BodiesOfAir<Most>::rate_of_tank(const Valves& valves) const noexcept {
+  double rate = 0;
+  for (std::size_t i = 0; i < tank_rates_.size(); ++i)
+    if (ramping_ || valves[2 * i].share > 0) rate += tank_rates_[i];
+  return rate;
 }
 
 // Allocates the states of hysteresis and creep of muscle i.
@@ -503,10 +528,14 @@ double BodiesOfAir<Most>::longest_step(const Ends& ends, const Valves& valves) c
   return fastest > 0 ? stable_decay / fastest : never;
 }
 
+// Bodies that are integrated ahead take the tank's pressure as constant through a step, in which
+// the tank may therefore give at most what it has above the lowest pressure behind its valves.
 template <int Most>
 double BodiesOfAir<Most>::longest_step_of_rest(const Ends& ends,
                                                const Valves& valves) const noexcept {
-  if (air_.wall_time > 0) return longest_step(ends, valves);
+  const double of_tank = rate_of_tank(valves);
+  const double longest = of_tank > 0 ? 1.0 / of_tank : never;
+  if (air_.wall_time > 0) return std::min(longest, longest_step(ends, valves));
   double fastest = lag_rate_;
   for (int i = 0; i < size_ && (settles_ || valves.leaking); ++i) {
     const bool held_back = line(i).hose == none && blocked(i, valves);
@@ -514,7 +543,7 @@ double BodiesOfAir<Most>::longest_step_of_rest(const Ends& ends,
     const double slope = line(i).settling + spring_ * slope_of_faults(i, valves.faults);
     fastest = std::max(fastest, slope / volume(i, ends.length[i]));
   }
-  return fastest > 0 ? stable_decay / fastest : never;
+  return fastest > 0 ? std::min(longest, stable_decay / fastest) : longest;
 }
 
 template <int Most>

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -127,6 +128,56 @@ TEST(DrivenMuscle, ChokedAirOfRampsIsThatOfTheirMeanShare) {
         EXPECT_NEAR(driven.account().in / (flow * open), 1, 1e-4)
             << hose << " " << exhaust << " " << opening << " " << closing << " " << step;
       }
+}
+
+// A chamber of constant volume with an open inlet, after a second: without heat to the walls the
+// air that enters brings its enthalpy, so V (P_s - P_0)/(gamma R T) has entered, whatever the
+// valve.
+TEST(DrivenMuscle, WithoutHeatTheChamberTakesItsEnthalpy) {
+  for (const double area : {5e-7, 4e-6, 3.2e-5})
+    for (const double linear : {1e-3, 1e-5})
+      for (const double step : {1e-3, 1e-4}) {
+        Muscle m = bundle(0);
+        m.inlet.flow.area = area;
+        m.inlet.flow.linear_below = linear;
+        const gas::Air air{.wall_time = 1e6};
+        const gas::Supply supply;
+        DrivenMuscle driven(m, air, supply, swinging(0));
+        const double start = driven.air_mass(),
+                     volume = start * air.gas_constant * air.temperature / air.atmosphere;
+        driven.inlet(true);
+        while (driven.time() < 1) driven.advance(step, swinging(0));
+        const double enters = volume * (supply.pressure - air.atmosphere) /
+                              (gas::heat_capacity_ratio * air.gas_constant * air.temperature);
+        EXPECT_NEAR(driven.account().in / enters, 1, 5e-4) << area << " " << linear << " " << step;
+      }
+}
+
+// A tank that is smaller than the muscle and its wide inlet come to their common pressure, and
+// neither passes it on the way.
+TEST(DrivenMuscle, SmallTanksComeToTheCommonPressure) {
+  for (const double tank : {1e-4, 5e-6, 1e-6})
+    for (const double area : {1e-6, 2e-5}) {
+      Muscle m = bundle(0);
+      m.inlet.flow.area = area;
+      const gas::Air air{.polytropic_exponent = 1};
+      gas::Supply supply;
+      supply.kind = gas::Supply::Kind::tank;
+      supply.volume = tank;
+      supply.initial_pressure = supply.pressure;
+      DrivenMuscle driven(m, air, supply, swinging(0));
+      const double spring = air.gas_constant * air.temperature;
+      const double muscle = driven.account().mass * spring / air.atmosphere;
+      const double common = (supply.pressure * tank + air.atmosphere * muscle) / (tank + muscle);
+      driven.inlet(true);
+      double highest = 0;
+      while (driven.time() < 0.5) {
+        driven.advance(1e-3, swinging(0));
+        highest = std::max(highest, driven.pressure());
+      }
+      EXPECT_NEAR(driven.pressure() / common, 1, 3e-3) << tank << " " << area;
+      EXPECT_LT(highest / common, 1 + 1e-3) << tank << " " << area;
+    }
 }
 
 // A regulator's set point is reached and held.
