@@ -272,6 +272,8 @@ constexpr double ambient = 101325;    // [Pa]
 constexpr double braid_factor = 8.2;  // a - b in check.h, for a braid at 25 degrees [-]
 
 // Extremes of the points.
+constexpr double vented_below = 0.03;  // share of the largest pressure
+
 struct Reach {
   double lowest = 1e300, top = -1e300, weakest = 1e300, strongest = -1e300, shortest = 1e300,
          longest = 0;
@@ -374,6 +376,35 @@ Check sign_of_force(const StaticData& data, const Reach& r) {
   return {"sign of force", TrafficLight::green, "The muscle pulls.", ""};
 }
 
+// Mean forces of a mount without pressure, and of another, longer one of the same muscle.
+struct ZerosOfMounts {
+  double shorter = 0, shorter_force = 0, longer = 0, longer_force = 0;  // [m], [N]
+
+  double drop() const { return shorter_force - longer_force; }
+};
+
+// Returns the two mounts whose force without pressure falls most with the length. A passive muscle
+// pulls more the longer it is held, so such a fall is one of the cell's zero.
+ZerosOfMounts largest_drop(const StaticData& data, const Reach& r) {
+  struct Mean {
+    double sum = 0, n = 0;
+  };
+  std::map<std::pair<double, double>, Mean> mounts;  // by rest length and length
+  for (const StaticPoint& p : data.points) {
+    if (!(p.pressure < vented_below * r.top)) continue;
+    Mean& mean = mounts[{p.rest_length, p.length}];
+    mean.sum += p.force, mean.n += 1;
+  }
+  ZerosOfMounts out;
+  for (const auto& [shorter, a] : mounts)
+    for (const auto& [longer, b] : mounts) {
+      if (shorter.first != longer.first || !(shorter.second < longer.second)) continue;
+      const ZerosOfMounts one{shorter.second, a.sum / a.n, longer.second, b.sum / b.n};
+      if (one.drop() > out.drop()) out = one;
+    }
+  return out;
+}
+
 // Checks the zero: at the lowest pressure a muscle hardly pulls, so a force there is an offset.
 Check zero_of_force(const StaticData& data, const Reach& r, double taken_off) {
   if (std::abs(taken_off) > 0.02 * (r.strongest - r.weakest))
@@ -384,7 +415,7 @@ Check zero_of_force(const StaticData& data, const Reach& r, double taken_off) {
         "Zero the cell before a measurement, and check whether it drifts.", true};
   double sum = 0, n = 0;
   for (const StaticPoint& p : data.points)
-    if (p.pressure < 0.03 * r.top) sum += p.force, n += 1;
+    if (p.pressure < vented_below * r.top) sum += p.force, n += 1;
   if (n == 0)
     return {"zero of force", TrafficLight::grey,
             "Not checked: no reading without pressure, and none of a slack muscle, shows what the "
@@ -399,6 +430,14 @@ Check zero_of_force(const StaticData& data, const Reach& r, double taken_off) {
     return {"zero of force", TrafficLight::red, text,
             "Take the zero off; counts of a converter are no newtons."};
   if (share > 0.02) return {"zero of force", TrafficLight::yellow, text, "Take the zero off."};
+  const ZerosOfMounts zeros = largest_drop(data, r);
+  if (zeros.drop() > 0.02 * (r.strongest - r.weakest))
+    return {"zero of force", TrafficLight::yellow,
+            fmt::format(
+                "Without pressure the force is {:.4g} N at {:.4g} mm and {:.4g} N at {:.4g} "
+                "mm; a muscle pulls no less where it is longer, so the cell's zero changed.",
+                zeros.shorter_force, 1e3 * zeros.shorter, zeros.longer_force, 1e3 * zeros.longer),
+            "Take each mount's own force without pressure off its readings."};
   return {"zero of force", TrafficLight::green, text, ""};
 }
 

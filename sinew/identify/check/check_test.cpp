@@ -175,6 +175,12 @@ const Broken broken[] = {
        i.known_rest = rest;
        each(i, [](Row& r) { r.force += 27; });
      }},
+    {"another zero at each mount", "zero of force", TrafficLight::yellow,
+     [](Input& i) {
+       i = rig(1, 1, 250, 0);
+       i.known_rest = rest;
+       each(i, [](Row& r) { r.force += std::lround(r.length) % 20 < 10 ? 12 : -12; });
+     }},
     {"mm called m", "readable", TrafficLight::red, [](Input& i) { i.length = "m"; }},
     {"mm called inch", "readable", TrafficLight::red, [](Input& i) { i.length = "in"; }},
     {"cm called mm", "length unit", TrafficLight::red,
