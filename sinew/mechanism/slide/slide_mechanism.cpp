@@ -47,6 +47,12 @@ void refuse_contradictions(const StandSetup& s) {
   if (s.cylinder && s.cylinder->mode != air::Cylinder::Mode::single_acting)
     refuse("its cylinder is single-acting");
   if (!s.cylinder && !(s.muscle.actuator.braid.turns > 0)) refuse("its muscle has no braid");
+  const actuator::Actuator& a = s.muscle.actuator;
+  if (!s.cylinder && a.toe.tension > 0 && a.short_end.law == actuator::ShortEnd::Law::zero)
+    refuse(
+        "with toe.tension the tension of short_end.law = \"zero\" jumps at the shortest length, "
+        "and "
+        "a lighter load would switch there without end; expected \"stop\" or \"empirical\"");
   for (const Transducer& t : s.transducers)
     if (!(t.high > t.low)) refuse("transducer " + t.name + " has no range");
 }

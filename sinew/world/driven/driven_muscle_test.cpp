@@ -97,7 +97,7 @@ TEST(DrivenMuscle, APulseOfJustTheOpeningDelayPassesNoAir) {
 }
 
 // Choked air passes a ramp as if the valve were open for half of it, whether it is integrated with
-// the machine or ahead of it: through a hose that holds air, or beside a wide exhaust.
+// the machine or ahead of it: through a hose that holds air, or next to a wide exhaust.
 TEST(DrivenMuscle, ChokedAirOfRampsIsThatOfTheirMeanShare) {
   constexpr int pulses = 20, on = 10, off = 20;
   struct Case {
