@@ -415,11 +415,13 @@ TEST(Stand, RefusesWhatIsNoStand) {
               s.start = {.pressure = s.start.pressure};
             }).substr(0, 28),
             "test stand: at a length of 0");
-  EXPECT_EQ(refusal([](StandSetup& s) {
-              s.muscle.actuator.toe.tension = 13;
-              s.muscle.actuator.short_end.law = actuator::ShortEnd::Law::zero;
-            }).substr(0, 29),
-            "test stand: with toe.tension ");
+  for (const double mass : {0.45, 5.0})
+    EXPECT_EQ(refusal([=](StandSetup& s) {
+                s.muscle.actuator.toe.tension = 13;
+                s.muscle.actuator.short_end.law = actuator::ShortEnd::Law::zero;
+                s.load.mass = mass;
+              }).substr(0, 37),
+              mass < 1 ? "test stand: by short_end.law = \"zero\"" : "nothing");
   for (const double length : {2.0, 0.01})
     EXPECT_EQ(refusal([=](StandSetup& s) { s.start.length = length; }),
               "test stand: it starts beyond half the shortest length and 1.5 threads");

@@ -27,6 +27,27 @@ void refuse_schedule(const Schedule& s, const char* name, double least) {
   }
 }
 
+double least(const Schedule& s) {
+  double out = s.at(0);
+  for (const Schedule::Point& p : s.points) out = std::fmin(out, p.value);
+  return out;
+}
+
+// Refuses a load that is less than the tension just above the shortest length: below that length
+// the tension is zero, and the load would cross it without end.
+void refuse_endless_switching(const StandSetup& s) {
+  const actuator::Actuator& a = s.muscle.actuator;
+  if (a.short_end.law != actuator::ShortEnd::Law::zero || !(a.braid.turns > 0)) return;
+  const double above = std::nextafter(actuator::shortest_length(a), infinite);
+  const double holds = s.muscle.count * actuator::clamped_tension(a, above, 0, 0, s.air.atmosphere);
+  const double load = least(s.load.mass) * s.load.gravity + least(s.load.force);
+  if (holds > load)
+    refuse("by short_end.law = \"zero\" the tension jumps from " + std::to_string(holds) +
+           " N to 0 at the shortest length, and the load of " + std::to_string(load) +
+           " N would switch there without end: give the law \"stop\" or \"empirical\", or more "
+           "load");
+}
+
 void refuse_contradictions(const StandSetup& s) {
   const bool driven = s.load.mode == Load::Mode::driven;
   if (!(s.step > 0)) refuse("its step must be above 0");
@@ -47,12 +68,7 @@ void refuse_contradictions(const StandSetup& s) {
   if (s.cylinder && s.cylinder->mode != air::Cylinder::Mode::single_acting)
     refuse("its cylinder is single-acting");
   if (!s.cylinder && !(s.muscle.actuator.braid.turns > 0)) refuse("its muscle has no braid");
-  const actuator::Actuator& a = s.muscle.actuator;
-  if (!s.cylinder && a.toe.tension > 0 && a.short_end.law == actuator::ShortEnd::Law::zero)
-    refuse(
-        "with toe.tension the tension of short_end.law = \"zero\" jumps at the shortest length, "
-        "and "
-        "a lighter load would switch there without end; expected \"stop\" or \"empirical\"");
+  if (!driven && !s.cylinder) refuse_endless_switching(s);
   for (const Transducer& t : s.transducers)
     if (!(t.high > t.low)) refuse("transducer " + t.name + " has no range");
 }
