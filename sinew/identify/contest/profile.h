@@ -3,8 +3,8 @@
 //
 //   error at x   sqrt(S(x)/S)            S(x): smallest sum of squares of all readings with the
 //                                        parameter at x, S: the smallest of all
-//   pinned       S(x) > S + t^2 s^2 i    at half and at twice the value; at 0.8 and 1.25 times
-//                                        where a bound ends the way to them
+//   pinned       S(x) > S + t^2 s^2 i    at half and at twice the value; if bounds exclude
+//                                        these, at 0.8 and 1.25 times the value
 //
 //   t            quantile 0.975 of Student's t
 //   s, i         standard deviation of the residuals and inflation of its square by correlation,
