@@ -96,8 +96,8 @@ TEST(DrivenMuscle, APulseOfJustTheOpeningDelayPassesNoAir) {
   EXPECT_GT(driven.account().in, 1e-8);
 }
 
-// Choked air passes a ramp as if the valve were open for half of it, whether it is integrated with
-// the machine or ahead of it: through a hose that holds air, or next to a wide exhaust.
+// Choked air passes a ramp as if the valve were open for half its time. Muscles behind a hose with
+// air, and those with a wide exhaust, are integrated ahead of the machine; the others with it.
 TEST(DrivenMuscle, ChokedAirOfRampsIsThatOfTheirMeanShare) {
   constexpr int pulses = 20, on = 10, off = 20;
   struct Case {
@@ -146,15 +146,15 @@ TEST(DrivenMuscle, WithoutHeatTheChamberTakesItsEnthalpy) {
         const double start = driven.air_mass(),
                      volume = start * air.gas_constant * air.temperature / air.atmosphere;
         driven.inlet(true);
-        while (driven.time() < 1) driven.advance(step, swinging(0));
+        for (int k = 0; k < std::lround(1 / step); ++k) driven.advance(step, swinging(0));
         const double enters = volume * (supply.pressure - air.atmosphere) /
                               (gas::heat_capacity_ratio * air.gas_constant * air.temperature);
         EXPECT_NEAR(driven.account().in / enters, 1, 5e-4) << area << " " << linear << " " << step;
       }
 }
 
-// A tank that is smaller than the muscle and its wide inlet come to their common pressure, and
-// neither passes it on the way.
+// A tank that is smaller than the muscle behind a wide inlet reaches the common pressure with it;
+// the muscle's pressure never exceeds that.
 TEST(DrivenMuscle, SmallTanksComeToTheCommonPressure) {
   for (const double tank : {1e-4, 5e-6, 1e-6})
     for (const double area : {1e-6, 2e-5}) {
@@ -171,7 +171,7 @@ TEST(DrivenMuscle, SmallTanksComeToTheCommonPressure) {
       const double common = (supply.pressure * tank + air.atmosphere * muscle) / (tank + muscle);
       driven.inlet(true);
       double highest = 0;
-      while (driven.time() < 0.5) {
+      for (int k = 0; k < 500 && !driven.failed(); ++k) {
         driven.advance(1e-3, swinging(0));
         highest = std::max(highest, driven.pressure());
       }
