@@ -1,8 +1,8 @@
 # Files of sinew/world that are compiled separately for processors with wide registers. Every external symbol
 # of such a file has its width in its name (sinew/world/lane_nodes.h), so that the linker cannot use its code
 # on another processor. A test checks this. Tests compile the same functions for every processor; at the low
-# optimisation of sanitizers these are not inlined, and return packs in other registers: there no file has
-# wide registers.
+# optimisation of sanitizers these are not inlined, and return packs in other registers. So sanitizers compile
+# these files for every processor too.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   if(NOT SINEW_SANITIZE)
     set(sinew_lanes_4 -mavx2)

@@ -61,7 +61,7 @@ Limits planar_limits(const std::string& name) {
     l.preview_angle = 1e-4, l.preview_place = 1.2e-5, l.preview_tension = 0.18;
     l.driven_order = 0;
   }
-  // Steps of 1 ms are divided while a valve is open, those of 0.25 ms less or not at all
+  // Steps of 1 ms are divided while a valve is open, those of 0.25 ms less or never
   // (order 1.5, 4.0e-9 rad; broken -0.2, 4.0e-8).
   if (name == "heat") l.driven_order = 1, l.driven_error = 1e-8;
   if (name == "broken_heat") l.driven_order = -1, l.driven_error = 1e-7;

@@ -384,7 +384,7 @@ struct ZerosOfMounts {
 };
 
 // Returns the two mounts whose force without pressure falls most with the length. A passive muscle
-// pulls more the longer it is held, so such a fall is one of the cell's zero.
+// pulls more the longer it is held, so such a fall shows a change of the cell's zero.
 ZerosOfMounts largest_drop(const StaticData& data, const Reach& r) {
   struct Mean {
     double sum = 0, n = 0;

@@ -53,9 +53,9 @@ struct Candidate {
 // Throws config::Error if their constraints name a parameter that no candidate has.
 void check_constraints(std::span<const Candidate> candidates);
 
-// Widens the intervals of a solution with values at their bounds to those that they have if these
-// values are free. A value within `inside` scales of a bound counts as at it: a noise of the data
-// may bend the law there.
+// Widens the intervals of a solution with values at their bounds: these values then count as free.
+// Values within `inside` scales of a bound are treated alike, as noise of the data may determine
+// the derivatives there.
 void widen_at_bounds(const FitProblem& problem, Solution& s, double inside = 0);
 
 // Returns the solution for all rows.
